@@ -111,6 +111,19 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
   return certificate;
 }
 
+void Certifier::Certify(const Hierarchy& hierarchy,
+                        Solution* solution) noexcept {
+  solution->certificate =
+      Certify(hierarchy, static_cast<const Solution&>(*solution));
+  StoreGaps(solution);
+}
+
+void Certifier::StoreGaps(Solution* solution) const {
+  for (size_t level = 0; level < gap_.size(); ++level) {
+    solution->levels[level].gap = gap_[level];
+  }
+}
+
 void Certifier::Truncate(const Hierarchy& hierarchy,
                          Solution* solution) noexcept {
   std::fill(gap_.begin(), gap_.end(), kInfinity);
@@ -134,8 +147,9 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
         Worse(certificate.relative_gap, RelativeGap(level));
     solution->status = Status::kIterationLimit;
     solution->failed_level = level;
-    return;
+    break;
   }
+  StoreGaps(solution);
 }
 
 void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,

@@ -23,6 +23,9 @@ class Certifier {
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 
+  /// Certifies the answer and stores its certificate and gaps in it.
+  void Certify(const Hierarchy& hierarchy, Solution* solution) noexcept;
+
   /// After Certify() or Truncate(): how far the cost of a level may be above its
   /// optimum, given the levels above. This is the whole cost for the first level that
   /// is not certified, and infinite below it. It holds for all optima of the levels
@@ -36,7 +39,7 @@ class Certifier {
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
   static constexpr double kCertified = 1e-9;
 
-  /// Certifies the answer and stores solution->certificate. While its worst()
+  /// Certifies the answer and stores its certificate and gaps in it. While worst()
   /// exceeds kCertified, sets the status to kIterationLimit and moves
   /// failed_level one level up, towards level 0.
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
@@ -63,6 +66,7 @@ class Certifier {
     Eigen::VectorXd norm;    ///< |C_i|.
     std::vector<Side> side;  ///< The nearer bound.
   };
+  void StoreGaps(Solution* solution) const;
   void AddToGradient(const double* row, Span span, double factor, double size);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);

@@ -43,6 +43,7 @@ void Solution::Reset() noexcept {
   certificate = {};
   for (LevelSolution& level : levels) {
     level.cost = 0;
+    level.gap = std::numeric_limits<double>::infinity();
     level.equality_residual.setZero();
     level.slack.setZero();
     std::fill(level.active.begin(), level.active.end(), Side::kNone);
@@ -66,6 +67,7 @@ void Solution::Reset(const Hierarchy& hierarchy) noexcept {
     const int inequalities = hierarchy.num_inequalities(k);
     LevelSolution& level = levels[k];
     level.cost = 0;
+    level.gap = std::numeric_limits<double>::infinity();
     level.equality_residual.head(equalities).setZero();
     level.slack.head(inequalities).setZero();
     std::fill_n(level.active.begin(), inequalities, Side::kNone);

@@ -30,7 +30,10 @@ struct LevelMultipliers {
 
 /// The answer for one level.
 struct LevelSolution {
-  double cost;                        ///< 1/2 (sum weight r^2 + |slack|^2).
+  double cost;  ///< 1/2 (sum weight r^2 + |slack|^2).
+  /// Certifier::gap(), which each solver fills with the certificate. Infinite if the
+  /// hierarchy is invalid.
+  double gap;
   Eigen::VectorXd equality_residual;  ///< B y + b.
   Eigen::VectorXd slack;              ///< max(lower - C y, C y - upper, 0).
   std::vector<Side> active;           ///< By inequality row.

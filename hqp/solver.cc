@@ -231,7 +231,7 @@ void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
     // No search has shown that y is the shortest one.
     solution->status = Status::kIterationLimit;
     solution->failed_level = std::max(hierarchy.num_levels() - 1, 0);
-    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    certifier_.Truncate(hierarchy, solution);
   }
   search_.Stop(hierarchy, problem_, &side_);
 }
@@ -281,7 +281,7 @@ bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
                                  Solution* solution) {
   writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
                 solution);
-  solution->certificate = certifier_.Certify(hierarchy, *solution);
+  certifier_.Certify(hierarchy, solution);
   return solution->certificate.worst() <= Certifier::kCertified;
 }
 

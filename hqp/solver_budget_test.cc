@@ -146,6 +146,44 @@ TEST(SolverBudget, GoesOnAlongAPath) {
   EXPECT_GT(stopped, 200);
 }
 
+// Solves `changed` from the optimum of `drawn`, with limits of 0, 1, 2, ... iterations
+// until none is needed. Expects that no answer is worse than the one of a smaller limit.
+// Returns the number of solves that were stopped.
+int SolveWithLargerLimits(const HierarchyCase& drawn,
+                          const Hierarchy& changed) {
+  const int n = drawn.hierarchy.num_variables();
+  Solver solver(n, drawn.capacity);
+  Solution now(n, drawn.capacity);
+  std::optional<Solution> before;
+  for (int limit = 0;; ++limit) {
+    SCOPED_TRACE(limit);
+    solver.Forget();
+    solver.max_iterations = 500;
+    EXPECT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
+    solver.max_iterations = limit;
+    const Status status = solver.Solve(changed, &now);
+    EXPECT_TRUE(!before || IsNoWorse(changed, now, *before));
+    before = now;
+    if (status == Status::kOptimal || limit == 100) return limit;
+  }
+}
+
+TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  options.max_inequalities = 12;
+  int stopped = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const HierarchyCase drawn =
+        WithRoomToChange(MakeRandomHierarchy(seed, options));
+    HierarchyCase changed = drawn;
+    ChangeHierarchy(seed, &changed);
+    stopped += SolveWithLargerLimits(drawn, changed.hierarchy);
+  }
+  EXPECT_GT(stopped, 200);
+}
+
 // The rows change in each solve, and bounds become infinite or equal, while the budget
 // ends each solve. Afterwards, an ample budget suffices for the optimum, and a solver
 // that forgets is as new.

@@ -128,6 +128,10 @@ void BindTickReport(py::module_* module) {
       [](const PythonReport& self) { return self.report.certificate; },
       "The Certificate of the solution.");
   report.def_property_readonly(
+      "gap", [](const PythonReport& self) { return self.report.gap; },
+      "For each priority level, how far its cost may be above its optimum; NaN "
+      "if no task uses the level.");
+  report.def_property_readonly(
       "y",
       [](py::object self) {
         return View(self.cast<PythonReport&>().report.y, self);

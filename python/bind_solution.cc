@@ -74,11 +74,12 @@ py::list Conflict(const PythonSolution& self, py::handle level) {
   return py::cast(rows);
 }
 
-// Returns Certifier::gap() of each level. Few callers read the gaps, and the
-// certifier takes as long as a small solve, so they are computed here.
 std::vector<double> Gaps(const PythonSolution& self) {
-  const py::gil_scoped_release release;
-  return FindGaps(MakeHierarchy(self.source), self.solution);
+  std::vector<double> gaps;
+  for (int level = 0; level < self.num_levels(); ++level) {
+    gaps.push_back(self.solution.levels[level].gap);
+  }
+  return gaps;
 }
 
 void BindCertificate(py::module_* module) {
@@ -110,10 +111,7 @@ void BindLevelSolution(py::module_* module) {
       [](const PythonLevelSolution& self) { return self.answer().cost; },
       "(sum of weight (B y + b)^2 + |slack|^2) / 2.");
   level.def_property_readonly(
-      "gap",
-      [](const PythonLevelSolution& self) {
-        return Gaps(*self.solved)[self.level];
-      },
+      "gap", [](const PythonLevelSolution& self) { return self.answer().gap; },
       "How far the cost may be above its optimum, given the levels above. "
       "Computed by each read, as Solution.gap.");
   level.def_property_readonly(
@@ -189,8 +187,7 @@ void BindSolution(py::module_* module) {
       "The Certificate of the levels above failed_level, or of all.");
   solution.def_property_readonly(
       "gap", Gaps,
-      "For each level, how far its cost may be above its optimum. Computed by "
-      "each read, in about the time of a solve.");
+      "For each level, how far its cost may be above its optimum.");
   solution.def_property_readonly(
       "levels",
       [](const std::shared_ptr<PythonSolution>& self) {

@@ -117,7 +117,7 @@ Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   for (int pass = 0; pass < kPasses; ++pass) {
     SolveFromY(hierarchy, solution);
     if (solution->status != Status::kOptimal) break;
-    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    certifier_.Certify(hierarchy, solution);
     if (solution->certificate.worst() <= Certifier::kCertified) {
       return solution->status;
     }

@@ -2,6 +2,7 @@
 // Stack reports solutions and names its rows here; stack.cc writes the rows.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "poise/robot/control/stack.h"
 
@@ -33,6 +34,7 @@ void Stack::Resize(TickReport* report) const {
   }
   report->y = Eigen::VectorXd::Zero(num_variables_);
   report->tasks.assign(num_tasks(), {});
+  report->gap.assign(kMaxLevel, std::numeric_limits<double>::quiet_NaN());
   report->active.clear();
   report->active.reserve(inequalities);
   report->lost.clear();
@@ -46,6 +48,11 @@ void Stack::Report(const Solution& solution,
   report->iterations = solution.iterations;
   report->failed_level =
       solution.failed_level < 0 ? 0 : priority_level_[solution.failed_level];
+  std::fill(report->gap.begin(), report->gap.end(),
+            std::numeric_limits<double>::quiet_NaN());
+  for (int level = 0; level < num_levels_; ++level) {
+    report->gap[priority_level_[level] - 1] = solution.levels[level].gap;
+  }
   report->active.clear();
   report->lost.clear();
   for (int i = 0; i < num_tasks(); ++i) {

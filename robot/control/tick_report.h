@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -65,6 +67,8 @@ struct TickReport {
   /// Rows that are violated, except those of the last level.
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Certificate of the solution.
+  /// LevelSolution::gap of priority level i + 1; NaN if no task uses this level.
+  std::vector<double> gap;
 
   /// Resets the numbers of the solution, for a tick in which the solver did not
   /// run.
@@ -75,6 +79,7 @@ struct TickReport {
     y.setZero();
     for (TaskReport& task : tasks) task.residual = task.slack = 0;
     certificate = {};
+    std::fill(gap.begin(), gap.end(), std::numeric_limits<double>::quiet_NaN());
   }
 
   /// Returns λ of a foot, [moment; force]; nv is Tree::nv().

@@ -17,6 +17,7 @@ constexpr char kTau[] = "tau.";
 constexpr char kQ[] = "q.";
 constexpr char kLambda[] = "lambda.";
 constexpr char kResidual[] = "residual.";
+constexpr char kGap[] = "gap.level_";
 constexpr char kComVelocity[] = "com_vel.";
 constexpr char kXi[] = "xi.";
 constexpr char kPlan[] = "plan.";
@@ -153,9 +154,12 @@ std::string PositionColumn(const std::string& joint) {
 
 std::string ResidualColumn(const std::string& task) { return kResidual + task; }
 
+std::string GapColumn(int level) { return kGap + std::to_string(level); }
+
 std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
                                   const std::vector<std::string>& joints,
-                                  const std::vector<std::string>& tasks) {
+                                  const std::vector<std::string>& tasks,
+                                  int num_levels) {
   using Kind = LogColumn::Kind;
   std::vector<LogColumn> columns = {{kTimeColumn, Kind::kTime}};
   const auto number = [&columns](std::string name) {
@@ -197,6 +201,7 @@ std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
   for (const char axis : {'x', 'y'}) number(PlanColumn(axis));
   number(kPlanTimeColumn);
   number(kPlanBeyondColumn);
+  for (int i = 1; i <= num_levels; ++i) number(GapColumn(i));
   for (const char* name : kTexts) text(name);
   for (const std::string& foot : feet) text(PhaseColumn(foot));
   text(kReasonColumn);
@@ -224,7 +229,8 @@ ColumnGroup GroupOf(std::string_view column) {
                  {kTau, ColumnGroup::kTorque},
                  {kQ, ColumnGroup::kPosition},
                  {kLambda, ColumnGroup::kCommandedWrench},
-                 {kResidual, ColumnGroup::kResidual}};
+                 {kResidual, ColumnGroup::kResidual},
+                 {kGap, ColumnGroup::kGap}};
   for (const auto& [start, group] : kGroups) {
     if (StartsWith(name, start)) return group;
   }

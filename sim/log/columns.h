@@ -53,11 +53,13 @@ std::string CommandedForceColumn(const std::string& foot, char axis);
 std::string TorqueColumn(const std::string& joint);    ///< "tau.JOINT[Nm]".
 std::string PositionColumn(const std::string& joint);  ///< "q.JOINT[rad]".
 std::string ResidualColumn(const std::string& task);   ///< "residual.TASK".
+std::string GapColumn(int level);                      ///< "gap.level_LEVEL".
 
 /// Returns all columns of a log, in their order.
 std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
                                   const std::vector<std::string>& joints,
-                                  const std::vector<std::string>& tasks);
+                                  const std::vector<std::string>& tasks,
+                                  int num_levels);
 
 /// The quantity of a column.
 enum class ColumnGroup {
@@ -82,6 +84,7 @@ enum class ColumnGroup {
   kTorque,           ///< Joint torque.
   kPosition,         ///< Joint position.
   kResidual,         ///< Residual of a task.
+  kGap,              ///< Gap of a level.
   kText,
   kUnknown,  ///< The name is not a column of a log.
 };

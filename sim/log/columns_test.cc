@@ -14,8 +14,8 @@ using Kind = LogColumn::Kind;
 // Users' scripts read these names: docs/log.md.
 TEST(Columns, AreTheDocumentedColumns) {
   std::string header;
-  for (const LogColumn& column :
-       LogColumns({"left_foot", "paw"}, {"hip", "knee"}, {"com", "posture"})) {
+  for (const LogColumn& column : LogColumns(
+           {"left_foot", "paw"}, {"hip", "knee"}, {"com", "posture"}, 2)) {
     header += column.name + '\n';
   }
   EXPECT_EQ(header,
@@ -38,15 +38,15 @@ TEST(Columns, AreTheDocumentedColumns) {
             "com_vel.x[m/s]\ncom_vel.y[m/s]\ncom_vel.z[m/s]\nxi.x[m]\n"
             "xi.y[m]\nleft_foot.x[m]\nleft_foot.y[m]\nleft_foot.z[m]\n"
             "paw.x[m]\npaw.y[m]\npaw.z[m]\nplan.x[m]\nplan.y[m]\n"
-            "plan.time[s]\nplan.beyond[m]\ntouching\n"
+            "plan.time[s]\nplan.beyond[m]\ngap.level_1\ngap.level_2\ntouching\n"
             "status\nactive\nlost\nconflict\nleft_foot.phase\npaw.phase\n"
             "reason\n");
 }
 
 TEST(Columns, HaveAKnownGroupThatAgreesWithTheirKind) {
   std::map<ColumnGroup, int> count;
-  for (const LogColumn& column :
-       LogColumns({"left_foot", "paw"}, {"hip", "knee"}, {"com", "contact"})) {
+  for (const LogColumn& column : LogColumns(
+           {"left_foot", "paw"}, {"hip", "knee"}, {"com", "contact"}, 2)) {
     SCOPED_TRACE(column.name);
     const ColumnGroup group = GroupOf(column.name);
     EXPECT_NE(group, ColumnGroup::kUnknown);
@@ -64,6 +64,7 @@ TEST(Columns, HaveAKnownGroupThatAgreesWithTheirKind) {
   EXPECT_EQ(count[ColumnGroup::kTorque], 2);
   EXPECT_EQ(count[ColumnGroup::kPosition], 2);
   EXPECT_EQ(count[ColumnGroup::kResidual], 2);
+  EXPECT_EQ(count[ColumnGroup::kGap], 2);
   EXPECT_EQ(count[ColumnGroup::kComVelocity], 3);
   EXPECT_EQ(count[ColumnGroup::kXi], 2);
   EXPECT_EQ(count[ColumnGroup::kFootPosition], 6);

@@ -32,7 +32,7 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   for (int i = 0; i < stack.num_tasks(); ++i) {
     tasks.emplace_back(stack.task(i).name());
   }
-  return LogColumns(feet, joints, tasks);
+  return LogColumns(feet, joints, tasks, Stack::kMaxLevel);
 }
 
 // Returns the cell that says why a tick is not ok; empty if it is.
@@ -257,6 +257,7 @@ void Recorder::Record(const TickRecord& record) {
   vector(now.xi);
   for (const FootObservation& foot : now.feet) vector(foot.X_WC.p);
   PlanCells(record);
+  vector(record.report.gap);
   TextCells(record);
   const size_t before = log_rows_.size();
   rows_->EndRow(&log_rows_);

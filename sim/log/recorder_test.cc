@@ -106,6 +106,13 @@ TEST(Recorder, WritesTheTrueStateAndTheControllerOutput) {
     EXPECT_NEAR(number("q." + joints[j].name + "[rad]"), record.start.q[7 + j],
                 kDigits);
   }
+  for (int level = 1; level <= Stack::kMaxLevel; ++level) {
+    const double gap = record.report.gap[level - 1];
+    const double logged = number(GapColumn(level));
+    // The log has nine digits.
+    if (!std::isnan(gap)) EXPECT_NEAR(logged, gap, 1e-8 * gap);
+    EXPECT_EQ(std::isnan(logged), std::isnan(gap));
+  }
   EXPECT_EQ(row["status"], "ok");
   EXPECT_EQ(row["self_contacts"], "0");
   for (const ActiveRow& active : record.report.active) {

@@ -142,12 +142,11 @@ class Comparison {
 
   void CountGap(const Tick& tick, const Solution& full) {
     result_.gap.push_back(full.certificate.relative_gap);
-    const std::vector<double> gap = FindGaps(tick.hierarchy, full);
     double largest = 0;
     for (int k = 0; k < CertifiedLevels(tick.hierarchy, full); ++k) {
       const long double cost = TrueCost(tick.hierarchy, k, full.y);
-      largest =
-          std::max(largest, static_cast<double>(gap[k] / Size(tick, k, cost)));
+      largest = std::max(largest, static_cast<double>(full.levels[k].gap /
+                                                      Size(tick, k, cost)));
     }
     result_.gap_above_floor.push_back(largest);
   }

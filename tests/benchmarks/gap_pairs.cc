@@ -24,12 +24,6 @@ double SquareIfFinite(double bound) {
   return std::isfinite(bound) ? bound * bound : 0;
 }
 
-// An answer, and Certifier::gap() of each level.
-struct Answer {
-  Solution solution;
-  std::vector<double> gap;
-};
-
 // Small hierarchies of mixed scales. One third have columns like those of
 // joints of small mass.
 RandomHierarchyOptions MixedScales() {
@@ -48,26 +42,23 @@ RandomHierarchyOptions MixedScales() {
 // Answers of the fast solver, cold and warm, and of the cascade. The warm
 // solver has solved a neighbor of the hierarchy before.
 struct Answers {
-  Answer cold, warm, cascade;
+  Solution cold, warm, cascade;
 };
 
 Answers SolveAll(const HierarchyCase& drawn, std::uint64_t seed) {
   const int n = drawn.hierarchy.num_variables();
   Solution solution(n, drawn.capacity);
-  const auto judge = [&] {
-    return Answer{solution, FindGaps(drawn.hierarchy, solution)};
-  };
   Solver solver(n, drawn.capacity);
   (void)solver.Solve(drawn.hierarchy, &solution);
-  const Answer cold = judge();
+  const Solution cold = solution;
   HierarchyCase neighbor = drawn;
   ChangeHierarchy(seed, &neighbor);
   (void)solver.Solve(neighbor.hierarchy, &solution);
   (void)solver.Solve(drawn.hierarchy, &solution);
-  const Answer warm = judge();
+  const Solution warm = solution;
   Cascade cascade(n, drawn.capacity);
   (void)cascade.Solve(drawn.hierarchy, &solution);
-  return {cold, warm, judge()};
+  return {cold, warm, solution};
 }
 
 // The reason why the gap of an answer does not cover another one.
@@ -113,37 +104,40 @@ double Radius(const Hierarchy& hierarchy, int level, const Eigen::VectorXd& y) {
 }
 
 // Why the gap of `a` on a level need not cover `b`.
-Reason FindReason(const Hierarchy& hierarchy, int level, const Answer& a,
-                  const Answer& b) {
-  const Eigen::VectorXd &y = a.solution.y, &other = b.solution.y;
+Reason FindReason(const Hierarchy& hierarchy, int level, const Solution& a,
+                  const Solution& b) {
+  const Eigen::VectorXd &y = a.y, &other = b.y;
   for (int k = 0; k < level; ++k) {
-    if (TrueCost(hierarchy, k, other) - TrueCost(hierarchy, k, y) > a.gap[k]) {
+    if (TrueCost(hierarchy, k, other) - TrueCost(hierarchy, k, y) >
+        a.levels[k].gap) {
       return Reason::kAbove;
     }
   }
   if ((other - y).norm() > Radius(hierarchy, level, y)) return Reason::kFar;
   const double optimal = SolveExactly(hierarchy).levels[level].cost.get_d();
-  return TrueCost(hierarchy, level, y) - optimal <= a.gap[level]
+  return TrueCost(hierarchy, level, y) - optimal <= a.levels[level].gap
              ? Reason::kBelow
              : Reason::kNone;
 }
 
-std::optional<Excess> FindExcess(const Hierarchy& hierarchy, const Answer& a,
-                                 const Answer& b) {
+std::optional<Excess> FindExcess(const Hierarchy& hierarchy, const Solution& a,
+                                 const Solution& b) {
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    const long double first = TrueCost(hierarchy, level, a.solution.y);
-    const long double second = TrueCost(hierarchy, level, b.solution.y);
+    const long double first = TrueCost(hierarchy, level, a.y);
+    const long double second = TrueCost(hierarchy, level, b.y);
     if (!std::isfinite(static_cast<double>(first - second))) {
-      return Excess{level, first, second, a.gap[level], Reason::kNotFinite};
+      return Excess{level, first, second, a.levels[level].gap,
+                    Reason::kNotFinite};
     }
     const bool is_first_costly = first > second;
-    const Answer& costly = is_first_costly ? a : b;
-    const Answer& cheap = is_first_costly ? b : a;
+    const Solution& costly = is_first_costly ? a : b;
+    const Solution& cheap = is_first_costly ? b : a;
     const long double difference = std::abs(first - second);
-    if (difference <= costly.gap[level]) continue;
+    if (difference <= costly.levels[level].gap) continue;
     const Reason reason = FindReason(hierarchy, level, costly, cheap);
-    if (reason == Reason::kNone || difference > a.gap[level] + b.gap[level]) {
-      return Excess{level, first, second, costly.gap[level], reason};
+    if (reason == Reason::kNone ||
+        difference > a.levels[level].gap + b.levels[level].gap) {
+      return Excess{level, first, second, costly.levels[level].gap, reason};
     }
   }
   return std::nullopt;
@@ -158,12 +152,12 @@ std::optional<Excess> FindExcess(const HierarchyCase& drawn,
 
 void Print(const HierarchyCase& drawn, std::uint64_t seed, int pair,
            const Excess& excess, const Answers& answers) {
-  const Solution& other = (pair == 0 ? answers.warm : answers.cascade).solution;
+  const Solution& other = pair == 0 ? answers.warm : answers.cascade;
   std::printf(
       "seed %llu, %s and cold (%s, %s), %d variables, %d levels, level %d: "
       "costs %.17Lg and %.17Lg, difference %.3Lg, gap %.3g: %s\n",
       static_cast<unsigned long long>(seed), pair == 0 ? "warm" : "cascade",
-      Name(other.status).c_str(), Name(answers.cold.solution.status).c_str(),
+      Name(other.status).c_str(), Name(answers.cold.status).c_str(),
       drawn.hierarchy.num_variables(), drawn.hierarchy.num_levels(),
       excess.level, excess.first, excess.second, excess.first - excess.second,
       excess.allowed, kReasonNames[static_cast<int>(excess.reason)]);
@@ -233,9 +227,9 @@ int CompareRandomPairs(std::uint64_t first_seed, int hierarchies) {
         WithRoomToChange(MakeRandomHierarchy(seed, options));
     const Answers answers = SolveAll(drawn, seed);
     for (const int pair : {0, 1}) {
-      const Answer& other = pair == 0 ? answers.warm : answers.cascade;
-      optimal[pair] += other.solution.status == Status::kOptimal &&
-                       answers.cold.solution.status == Status::kOptimal;
+      const Solution& other = pair == 0 ? answers.warm : answers.cascade;
+      optimal[pair] += other.status == Status::kOptimal &&
+                       answers.cold.status == Status::kOptimal;
       const auto excess = FindExcess(drawn, answers, pair);
       if (!excess) continue;
       Print(drawn, seed, pair, *excess, answers);
@@ -279,8 +273,6 @@ void PrintTicksThatDiffer(const RecordingConditions& conditions) {
     if (first != Status::kOptimal || second != Status::kOptimal) return;
     ++both;
     bool differs = false;
-    const std::vector<double> gap[] = {FindGaps(hierarchy, a),
-                                       FindGaps(hierarchy, b)};
     for (int k = 0; k < hierarchy.num_levels(); ++k) {
       const long double warm_cost = TrueCost(hierarchy, k, a.y);
       const long double cold_cost = TrueCost(hierarchy, k, b.y);
@@ -290,7 +282,7 @@ void PrintTicksThatDiffer(const RecordingConditions& conditions) {
       differs = true;
       std::printf("%4d  %d  %.9Lg  %.9Lg  %.2Le  %.2e %.2e\n", tick,
                   controller.stack().priority_level(k), warm_cost, cold_cost,
-                  warm_cost - cold_cost, gap[0][k], gap[1][k]);
+                  warm_cost - cold_cost, a.levels[k].gap, b.levels[k].gap);
     }
     differing += differs;
   });

@@ -283,28 +283,6 @@ int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution) {
   return 0;
 }
 
-std::vector<double> FindGaps(const Hierarchy& hierarchy,
-                             const Solution& solution) {
-  const int levels = hierarchy.num_levels();
-  std::vector<double> gaps(levels, std::numeric_limits<double>::infinity());
-  if (solution.status == Status::kNotFinite ||
-      solution.status == Status::kBadInput) {
-    return gaps;
-  }
-  std::vector<LevelCapacity> capacity;
-  for (int level = 0; level < levels; ++level) {
-    capacity.push_back(
-        {hierarchy.num_equalities(level), hierarchy.num_inequalities(level)});
-  }
-  Certifier certifier(hierarchy.num_variables(), capacity);
-  Solution copy = solution;
-  certifier.Truncate(hierarchy, &copy);
-  for (int level = 0; level < levels; ++level) {
-    gaps[level] = certifier.gap(level);
-  }
-  return gaps;
-}
-
 std::string DescribeHqpSolution(const Hierarchy& hierarchy,
                                 const Solution& solution,
                                 const Certificate& certificate,
@@ -323,10 +301,9 @@ std::string DescribeHqpSolution(const Hierarchy& hierarchy,
     }
   }
   text << "\n";
-  const std::vector<double> gaps = FindGaps(hierarchy, solution);
   for (int level = 0; level < levels; ++level) {
     text << "  level " << level << ": cost " << solution.levels[level].cost
-         << ", gap " << gaps[level] << ", nullity "
+         << ", gap " << solution.levels[level].gap << ", nullity "
          << solution.levels[level].nullity
          << (level < certified ? "" : ", NOT certified") << "\n";
   }
@@ -341,13 +318,12 @@ std::string WriteHqpSolution(const Hierarchy& hierarchy,
   out["status"] = Name(solution.status);
   out["y"] = Head(solution.y, hierarchy.num_variables());
   out["levels"] = ordered_json::array();
-  const std::vector<double> gaps = FindGaps(hierarchy, solution);
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const LevelSolution& from = solution.levels[level];
     const int inequalities = hierarchy.num_inequalities(level);
     ordered_json to;
     to["cost"] = from.cost;
-    to["gap"] = std::isfinite(gaps[level]) ? json(gaps[level]) : json(nullptr);
+    to["gap"] = std::isfinite(from.gap) ? json(from.gap) : json(nullptr);
     to["equality_residual"] =
         Head(from.equality_residual, hierarchy.num_equalities(level));
     to["slack"] = Head(from.slack, inequalities);

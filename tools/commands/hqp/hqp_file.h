@@ -38,11 +38,6 @@ std::string WriteHqp(const Hierarchy& hierarchy);
 /// failed one.
 int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution);
 
-/// Returns Certifier::gap() of each level, by a certifier of its own. It is
-/// infinite below the failed level, and for an invalid hierarchy.
-std::vector<double> FindGaps(const Hierarchy& hierarchy,
-                             const Solution& solution);
-
 /// Returns a description for people: one line, and one line for each level. It
 /// says which levels the certificate covers.
 std::string DescribeHqpSolution(const Hierarchy& hierarchy,

@@ -53,7 +53,7 @@ bool IsPartOfAColumn(const std::string& part) {
       std::regex_replace(std::regex_replace(part, std::regex("\\."), "\\."),
                          std::regex(kAnyName), "\\w*"));
   for (const LogColumn& column :
-       LogColumns({"FOOT"}, {"JOINT"}, {"momentum"})) {
+       LogColumns({"FOOT"}, {"JOINT"}, {"momentum"}, 1)) {
     const std::string name(WithoutUnit(column.name));
     std::smatch match;
     if (!std::regex_search(name, match, any)) continue;
