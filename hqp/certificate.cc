@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "poise/hqp/tolerances.h"
@@ -22,24 +20,6 @@ double Ratio(double error, double size) {
 // Returns the larger one, or infinity if either is NaN.
 double Worse(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? kInfinity : std::max(a, b);
-}
-
-// Returns whether all entries are zero, of either sign.
-bool IsZero(const double* x, int n) {
-  std::uint64_t bits = 0;
-  for (int j = 0; j < n; ++j) {
-    std::uint64_t entry;
-    std::memcpy(&entry, x + j, sizeof entry);
-    bits |= entry << 1;
-  }
-  return bits == 0;
-}
-
-// A wrong span would hide entries from the solver as well, so the certificate
-// does not trust spans.
-bool IsZeroOutside(const double* row, int n, Span span) {
-  const int end = span.first + span.size;
-  return IsZero(row, span.first) && IsZero(row + end, n - end);
 }
 
 // Returns the largest absolute entry of a row.
@@ -60,11 +40,14 @@ Certifier::Certifier(int num_variables,
       exact_gap_(capacity.size()),
       undercut_(capacity.size()),
       change_(capacity.size()),
+      multiplier_norm_(capacity.size(), capacity.size()),
       is_sharp_(capacity.size()),
       gradient_(num_variables),
       gradient_size_(num_variables),
       precise_gradient_(num_variables) {
+  int most_rows = 0;
   for (const LevelCapacity& level : capacity) {
+    most_rows = std::max({most_rows, level.equalities, level.inequalities});
     LevelRows rows;
     rows.residual.resize(level.equalities);
     rows.violation.resize(level.inequalities);
@@ -74,29 +57,10 @@ Certifier::Certifier(int num_variables,
     rows.side.resize(level.inequalities);
     rows_.push_back(std::move(rows));
   }
+  sums_.resize(most_rows);
+  factor_.resize(most_rows);
+  size_.resize(most_rows);
 }
-
-Certifier::RowSums Certifier::Sum(const double* row, const double* y, int n) {
-  using Four = Eigen::Array4d;
-  Four product = Four::Zero(), size = Four::Zero(), squares = Four::Zero();
-  int j = 0;
-  for (; j + 4 <= n; j += 4) {
-    const Four r = Four::Map(row + j);
-    const Four term = r * Four::Map(y + j);
-    product += term;
-    size += term.abs();
-    squares += r * r;
-  }
-  for (; j < n; ++j) {
-    const double term = row[j] * y[j];
-    product[0] += term;
-    size[0] += std::abs(term);
-    squares[0] += row[j] * row[j];
-  }
-  return {product.sum(), size.sum(), squares.sum()};
-}
-
-double Certifier::SumRounding(int n) { return (n / 4 + 8) * kEpsilon / 2; }
 
 Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                const Solution& solution) noexcept {
@@ -161,17 +125,17 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
       Worse(certificate->relative_gap, RelativeGap(level));
 }
 
-// Adds factor times a row to the gradient, and size times its absolute entries
-// to the magnitude of the gradient's terms.
-void Certifier::AddToGradient(const double* row, Span span, double factor,
-                              double size) {
-  double* gradient = gradient_.data() + span.first;
-  double* gradient_size = gradient_size_.data() + span.first;
-  ++num_terms_;
-  for (int j = 0; j < span.size; ++j) {
-    gradient[j] += factor * row[j];
-    gradient_size[j] += size * std::abs(row[j]);
-  }
+// Adds factor_ times the rows of a block to the gradient, and |size_| times their
+// absolute entries to the magnitude of the gradient's terms.
+void Certifier::AddToGradient(const Hierarchy& hierarchy, int level,
+                              bool equalities) {
+  const auto rows = equalities ? hierarchy.B(level) : hierarchy.C(level);
+  const Span* spans =
+      equalities ? hierarchy.B_span(level) : hierarchy.C_span(level);
+  num_terms_ +=
+      AddRowsWithSizes(rows.data(), hierarchy.num_variables(), spans,
+                       static_cast<int>(rows.rows()), factor_.data(),
+                       size_.data(), gradient_.data(), gradient_size_.data());
 }
 
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
@@ -188,12 +152,18 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
   double cost = 0, cost_size = 0, cost_rounding = 0, slack_rounding = 0;
   double feasibility = certificate->feasibility;
   const int n = hierarchy.num_variables();
-  bool has_right_spans = true;
-  for (int i = 0; i < B.rows(); ++i) {
-    const Span span = hierarchy.B_span(level)[i];
-    has_right_spans &= IsZeroOutside(B.row(i).data(), n, span);
-    const double* row = B.row(i).data() + span.first;
-    const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
+  // A wrong span would hide entries from the solver as well, so the certificate
+  // does not trust spans.
+  const Span *B_span = hierarchy.B_span(level),
+             *C_span = hierarchy.C_span(level);
+  const int equalities = hierarchy.num_equalities(level);
+  const int inequalities = hierarchy.num_inequalities(level);
+  const bool has_right_spans =
+      AreZeroOutside(B.data(), n, B_span, equalities) &&
+      AreZeroOutside(C.data(), n, C_span, inequalities);
+  SumRows(B.data(), n, B_span, equalities, solution.y.data(), sums_.data());
+  for (int i = 0; i < equalities; ++i) {
+    const RowSums& sums = sums_[i];
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
     rows.residual[i] = residual;
@@ -205,16 +175,16 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
         Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
     cost += weight[i] * residual * residual / 2;
     cost_size += weight[i] * size * size / 2;
-    const double rounding = SumRounding(span.size) * size;
+    const double rounding = RowSumRounding(B_span[i].size) * size;
     cost_rounding += weight[i] * (std::abs(residual) + rounding / 2) * rounding;
     slack_rounding += weight[i] * rounding * rounding;
-    AddToGradient(row, span, weight[i] * residual, weight[i] * size);
+    factor_[i] = weight[i] * residual;
+    size_[i] = weight[i] * size;
   }
-  for (int i = 0; i < C.rows(); ++i) {
-    const Span span = hierarchy.C_span(level)[i];
-    has_right_spans &= IsZeroOutside(C.row(i).data(), n, span);
-    const double* row = C.row(i).data() + span.first;
-    const RowSums sums = Sum(row, solution.y.data() + span.first, span.size);
+  AddToGradient(hierarchy, level, true);
+  SumRows(C.data(), n, C_span, inequalities, solution.y.data(), sums_.data());
+  for (int i = 0; i < inequalities; ++i) {
+    const RowSums& sums = sums_[i];
     const double value = sums.product;
     const bool at_upper = value - upper[i] >= lower[i] - value;
     const double bound = at_upper ? upper[i] : lower[i];
@@ -231,22 +201,21 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
     cost += slack * slack / 2;
     cost_size += size * size / 2;
-    const double rounding = SumRounding(span.size) * size;
+    const double rounding = RowSumRounding(C_span[i].size) * size;
     cost_rounding += (slack + rounding / 2) * rounding;
     slack_rounding += rounding * rounding;
-    if (violation > 0) {
-      if (rows.norm[i] > 0) {
-        farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
-      }
-      AddToGradient(row, span, at_upper ? violation : -violation, size);
+    if (violation > 0 && rows.norm[i] > 0) {
+      farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
     }
+    factor_[i] = at_upper ? slack : -slack;
+    size_[i] = violation > 0 ? size : 0;
   }
+  AddToGradient(hierarchy, level, false);
   slack_rounding_[level] = std::sqrt(slack_rounding);
   cost_[level] = cost;
   cost_size_[level] = cost_size;
-  const int num_rows =
-      hierarchy.num_equalities(level) + hierarchy.num_inequalities(level);
-  cost_rounding_[level] = cost_rounding + (num_rows + 2) * kEpsilon * cost;
+  cost_rounding_[level] =
+      cost_rounding + (equalities + inequalities + 2) * kEpsilon * cost;
   certificate->feasibility = has_right_spans ? feasibility : kInfinity;
   certificate->priority = Worse(
       certificate->priority,
@@ -265,20 +234,21 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
     const auto weight = hierarchy.weight(above);
     for (int i = 0; i < B.rows(); ++i) {
       const double lambda = multipliers.equality[i];
-      if (lambda == 0) continue;
-      const Span span = hierarchy.B_span(above)[i];
-      const double* row = B.row(i).data() + span.first;
-      AddToGradient(row, span, lambda, std::abs(lambda));
-      if (weight[i] == 0) {  // The row does not bind the levels below.
+      factor_[i] = size_[i] = lambda;
+      if (lambda != 0 &&
+          weight[i] == 0) {  // It does not bind the levels below.
+        const Span span = hierarchy.B_span(above)[i];
+        const double* row = B.row(i).data() + span.first;
         worst = Worse(worst, std::abs(lambda) * Largest(row, span.size));
       }
     }
+    AddToGradient(hierarchy, above, true);
     for (int i = 0; i < C.rows(); ++i) {
       const double mu = multipliers.inequality[i];
+      factor_[i] = size_[i] = mu;
       if (mu == 0) continue;
       const Span span = hierarchy.C_span(above)[i];
       const double* row = C.row(i).data() + span.first;
-      AddToGradient(row, span, mu, std::abs(mu));
       const double margin = tolerances::kAtBound * rows.size[i];
       double wrong;
       if (rows.violation[i] > margin) {
@@ -293,6 +263,7 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       }
       worst = Worse(worst, std::max(wrong, 0.0) * Largest(row, span.size));
     }
+    AddToGradient(hierarchy, above, false);
   }
   const double size = gradient_size_.lpNorm<Eigen::Infinity>();
   const double gradient =

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "poise/hqp/hierarchy.h"
+#include "poise/hqp/row_sums.h"
 #include "poise/hqp/solution.h"
 
 namespace poise {
@@ -45,18 +46,6 @@ class Certifier {
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:
-  /// Sums over the entries of a row and y, of the columns of the row's span.
-  struct RowSums {
-    double product;           ///< row . y.
-    double product_size;      ///< sum_j |row_j y_j|.
-    double squared_row_norm;  ///< |row|^2.
-  };
-  static RowSums Sum(const double* row, const double* y, int n);
-  /// Largest rounding of Sum() and one more addition, relative to the magnitudes of the
-  /// terms: one for the product, n / 4 + 3 for the sum of one of four lanes, two for
-  /// the sum of the lanes, and two more for the addition and for higher orders.
-  static double SumRounding(int n);
-
   struct LevelRows {
     Eigen::VectorXd residual;  ///< B y + b.
     /// Violation of the nearer bound; negative if met.
@@ -67,7 +56,7 @@ class Certifier {
     std::vector<Side> side;  ///< The nearer bound.
   };
   void StoreGaps(Solution* solution) const;
-  void AddToGradient(const double* row, Span span, double factor, double size);
+  void AddToGradient(const Hierarchy& hierarchy, int level, bool equalities);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
   void JudgeMultipliers(const Hierarchy& hierarchy, int level,
@@ -80,14 +69,14 @@ class Certifier {
   void FindGap(const Hierarchy& hierarchy, int level, const Solution& solution);
   double PreciseGradientNorm(const Hierarchy& hierarchy, int level,
                              const Solution& solution);
+  bool IsInside(const Hierarchy& hierarchy, int level, int i) const;
   double LargestGain(const Hierarchy& hierarchy, int level, int above,
                      double radius, const Solution& solution);
-  void FindChange(const Hierarchy& hierarchy, int level,
-                  const Solution& solution);
+  void FindChange(int level);
   void SharpenChanges(const Hierarchy& hierarchy, int level,
                       const Solution& solution);
-  double NormOfMultipliers(const Hierarchy& hierarchy, int level, int above,
-                           const Solution& solution) const;
+  void FindNormsOfMultipliers(const Hierarchy& hierarchy, int level,
+                              const Solution& solution);
   double FreeChange(const Hierarchy& hierarchy, int level, int above, int i,
                     double mu, double radius, const Solution& solution) const;
   template <typename Use>
@@ -101,6 +90,9 @@ class Certifier {
                      double* slope) const;
 
   std::vector<LevelRows> rows_;
+  /// By row of one block: its sums, and what AddToGradient() multiplies it with.
+  std::vector<RowSums> sums_;
+  std::vector<double> factor_, size_;
   /// By level: the cost, the cost of the magnitudes of its terms, and its rounding.
   std::vector<double> cost_, cost_size_, cost_rounding_;
   /// By level: norm of the rounding of all residuals and slacks, each times the root of
@@ -117,6 +109,9 @@ class Certifier {
   /// By level: largest change of all residuals and slacks from y to an optimum, each
   /// times the root of its weight.
   std::vector<double> change_;
+  /// By level and level above: norm of the multipliers that the level puts on the rows
+  /// above, each divided by the root of the row's weight.
+  Eigen::MatrixXd multiplier_norm_;
   std::vector<bool> is_sharp_;  ///< See SharpenChanges().
   double farthest_ = 0;  ///< Largest distance of a row of any level from y = 0.
   Eigen::VectorXd gradient_, gradient_size_;

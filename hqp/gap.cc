@@ -34,10 +34,12 @@ double PreciseRounding(Eigen::Index n) {
 }
 
 // Computes the residuals and slacks of a level in long double, and calls
-// add(row, span, gradient of the cost in row . y). Returns the cost.
-template <typename Add>
+// add(row, span, gradient of the cost in row . y). An inequality with is_inside(row) has
+// no slack. Returns the cost.
+template <typename IsInside, typename Add>
 long double VisitPreciseSlacks(const Hierarchy& hierarchy, int level,
-                               const Eigen::VectorXd& y, const Add& add) {
+                               const Eigen::VectorXd& y,
+                               const IsInside& is_inside, const Add& add) {
   long double cost = 0;
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
     const double* row = hierarchy.B(level).row(i).data();
@@ -49,6 +51,7 @@ long double VisitPreciseSlacks(const Hierarchy& hierarchy, int level,
     add(row, span, force);
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    if (is_inside(i)) continue;
     const double* row = hierarchy.C(level).row(i).data();
     const Span span = hierarchy.C_span(level)[i];
     const long double value = PreciseProduct(row, span, y);
@@ -82,6 +85,7 @@ void Certifier::FindGap(const Hierarchy& hierarchy, int level,
   const double rounding = (num_terms_ + n / 4 + 10) * kEpsilon / 2 * size;
   const double cost = cost_[level];
   error_[level] = gradient_.norm() + rounding;
+  FindNormsOfMultipliers(hierarchy, level, solution);
   double gap = cost;
   if (cost > kSharpEnough * CostScale(level)) {
     if (rounding * radius > kSharpEnough * CostScale(level)) {
@@ -96,17 +100,15 @@ void Certifier::FindGap(const Hierarchy& hierarchy, int level,
   }
   gap_[level] = exact_gap_[level] = gap + cost_rounding_[level];
   is_sharp_[level] = false;
-  FindChange(hierarchy, level, solution);
+  FindChange(level);
 }
 
 // Finds undercut_ and change_ of a level from those of the levels above. Half the
 // squared change is at most the gap and the undercut together.
-void Certifier::FindChange(const Hierarchy& hierarchy, int level,
-                           const Solution& solution) {
+void Certifier::FindChange(int level) {
   undercut_[level] = 0;
   for (int above = 0; above < level; ++above) {
-    undercut_[level] +=
-        NormOfMultipliers(hierarchy, level, above, solution) * change_[above];
+    undercut_[level] += multiplier_norm_(level, above) * change_[above];
   }
   change_[level] = std::sqrt(2 * (exact_gap_[level] + undercut_[level]));
 }
@@ -122,7 +124,8 @@ double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
       precise_gradient_[j] += factor * row[j];
     }
   };
-  (void)VisitPreciseSlacks(hierarchy, level, solution.y, add);
+  const auto is_inside = [&](int i) { return IsInside(hierarchy, level, i); };
+  (void)VisitPreciseSlacks(hierarchy, level, solution.y, is_inside, add);
   for (int above = 0; above < level; ++above) {
     const LevelMultipliers& of = solution.levels[level].multipliers[above];
     for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
@@ -139,6 +142,13 @@ double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
   return static_cast<double>(std::sqrt(squares));
 }
 
+// Returns whether an inequality has no slack even with its rounding.
+bool Certifier::IsInside(const Hierarchy& hierarchy, int level, int i) const {
+  const LevelRows& rows = rows_[level];
+  return rows.violation[i] <
+         -RowSumRounding(hierarchy.C_span(level)[i].size) * rows.size[i];
+}
+
 // Sharpens change_ of the levels up to `level`: computes their costs in long double,
 // and limits exact_gap_ to them. The cost of a level that is met is mostly rounding in
 // double.
@@ -151,33 +161,36 @@ void Certifier::SharpenChanges(const Hierarchy& hierarchy, int level,
         PreciseRounding(solution.y.size() + hierarchy.num_equalities(k) +
                         hierarchy.num_inequalities(k));
     const auto cost = static_cast<double>(VisitPreciseSlacks(
-        hierarchy, k, solution.y, [](const double*, Span, long double) {}));
+        hierarchy, k, solution.y,
+        [&](int i) { return IsInside(hierarchy, k, i); },
+        [](const double*, Span, long double) {}));
     const double root = std::sqrt(cost) + rounding * std::sqrt(cost_size_[k]);
     exact_gap_[k] = std::min(exact_gap_[k], root * root * (1 + 4 * kEpsilon));
-    FindChange(hierarchy, k, solution);
+    FindChange(k);
   }
 }
 
-// Norm of the multipliers that `level` puts on the rows of a level above, each divided
-// by the root of the row's weight.
-double Certifier::NormOfMultipliers(const Hierarchy& hierarchy, int level,
-                                    int above, const Solution& solution) const {
-  const LevelMultipliers& of = solution.levels[level].multipliers[above];
-  double squares = 0;
-  for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
-    const double lambda = of.equality[i];
-    if (lambda != 0) squares += lambda * lambda / hierarchy.weight(above)[i];
+// Finds multiplier_norm_ of a level.
+void Certifier::FindNormsOfMultipliers(const Hierarchy& hierarchy, int level,
+                                       const Solution& solution) {
+  for (int above = 0; above < level; ++above) {
+    const LevelMultipliers& of = solution.levels[level].multipliers[above];
+    double squares = 0;
+    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+      const double lambda = of.equality[i];
+      if (lambda != 0) squares += lambda * lambda / hierarchy.weight(above)[i];
+    }
+    for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+      squares += of.inequality[i] * of.inequality[i];
+    }
+    multiplier_norm_(level, above) = std::sqrt(squares);
   }
-  for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
-    squares += of.inequality[i] * of.inequality[i];
-  }
-  return std::sqrt(squares);
 }
 
 // Largest lambda' B d + mu' C d of the rows of a level above.
 double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
                               double radius, const Solution& solution) {
-  const double norm = NormOfMultipliers(hierarchy, level, above, solution);
+  const double norm = multiplier_norm_(level, above);
   if (norm == 0) return 0;
   double gain = 0;
   for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
@@ -217,7 +230,7 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
   const double size = rows.norm[i] * solution.y.norm() +
                       (std::isinf(bound) ? 0 : std::abs(bound));
   double distance = side * (bound - rows.value[i]);
-  double rounding = SumRounding(span.size) * size;
+  double rounding = RowSumRounding(span.size) * size;
   if (std::abs(mu) * rounding > kSharpEnough * CostScale(level)) {
     const long double value =
         PreciseProduct(hierarchy.C(above).row(i).data(), span, solution.y);
@@ -238,7 +251,7 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
                              const Use& use) const {
   const auto along_p = [p](const double* row, Span span) {
     if (p == nullptr) return RowSums{};
-    return Sum(row + span.first, p->data() + span.first, span.size);
+    return SumRow(row, span, p->data());
   };
   const LevelMultipliers& multipliers =
       solution.levels[level].multipliers[above];
@@ -250,8 +263,8 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
     const Span span = hierarchy.B_span(above)[i];
     const RowSums sums = along_p(B.row(i).data(), span);
     use(multipliers.equality[i] / root, root * rows.residual[i],
-        root * sums.product, root * SumRounding(span.size) * sums.product_size,
-        0);
+        root * sums.product,
+        root * RowSumRounding(span.size) * sums.product_size, 0);
   }
   for (int i = 0; i < C.rows(); ++i) {
     const double slack = std::max(rows.violation[i], 0.0);
@@ -260,7 +273,7 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
     const Span span = hierarchy.C_span(above)[i];
     const RowSums sums = along_p(C.row(i).data(), span);
     use(mu, rows.side[i] == Side::kUpper ? slack : -slack, sums.product,
-        SumRounding(span.size) * sums.product_size,
+        RowSumRounding(span.size) * sums.product_size,
         is_inactive ? -rows.violation[i] : 0);
   }
 }
@@ -321,11 +334,10 @@ double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
   for (int above = 0; above < level; ++above) {
     const LevelMultipliers& of = solution.levels[level].multipliers[above];
     const auto change = [&](const double* row, Span span, double multiplier) {
-      const RowSums sums =
-          Sum(row + span.first, p.data() + span.first, span.size);
-      *slope +=
-          std::abs(multiplier) *
-          (std::abs(sums.product) + SumRounding(span.size) * sums.product_size);
+      const RowSums sums = SumRow(row, span, p.data());
+      *slope += std::abs(multiplier) *
+                (std::abs(sums.product) +
+                 RowSumRounding(span.size) * sums.product_size);
       return sums.product;
     };
     // A row that must not change may change by rounding of the solver.

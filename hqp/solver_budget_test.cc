@@ -168,6 +168,8 @@ int SolveWithLargerLimits(const HierarchyCase& drawn,
   }
 }
 
+// The cost of a level need not fall at each step of a path, so that a few problems in
+// a thousand break this; none of these 200 does (docs/limits.md).
 TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
   RandomHierarchyOptions options;
   options.scaled = 0;

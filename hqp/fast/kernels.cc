@@ -4,20 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poise/hqp/four_doubles.h"
 #include "poise/math/target_clones.h"
-
-// Inlined, so that it is compiled for the processor of its caller.
-#define POISE_INLINE inline __attribute__((always_inline))
 
 namespace poise::kernels {
 namespace {
-
-// Four doubles, aligned as single doubles.
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
-
-#define POISE_LOAD(pointer) (*reinterpret_cast<const Four*>(pointer))
-#define POISE_STORE(pointer) (*reinterpret_cast<Four*>(pointer))
-#define POISE_SUM(four) (((four)[0] + (four)[2]) + ((four)[1] + (four)[3]))
 
 // Rows `stride` apart.
 template <class Number>

@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+// Four doubles for kernels, in the vector types of GCC and Clang. The functions are
+// inlined, so that they are compiled for the processor of their caller.
+
+#define POISE_INLINE inline __attribute__((always_inline))
+
+namespace poise {
+
+/// Four doubles, aligned as single doubles.
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+
+}  // namespace poise
+
+// Macros, because a function that returns a vector of this size has another ABI with
+// AVX.
+#define POISE_LOAD(pointer) (*reinterpret_cast<const Four*>(pointer))
+#define POISE_STORE(pointer) (*reinterpret_cast<Four*>(pointer))
+#define POISE_SUM(four) (((four)[0] + (four)[2]) + ((four)[1] + (four)[3]))

@@ -1,0 +1,147 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/hqp/row_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace poise {
+namespace {
+
+constexpr int kStride = 21;
+
+// Rows with each span of kStride columns. Outside of its span, a row is zero.
+struct Rows {
+  std::vector<double> entries;
+  std::vector<Span> spans;
+
+  int count() const { return static_cast<int>(spans.size()); }
+  const double* row(int i) const { return entries.data() + i * kStride; }
+};
+
+// Returns multiples of 1/8 with few digits, so that every sum is exact in any order.
+double Eighth(std::mt19937* random) {
+  return std::uniform_int_distribution<int>(-40, 40)(*random) / 8.0;
+}
+
+std::vector<double> Eighths(int count, std::mt19937* random) {
+  std::vector<double> numbers(count);
+  for (double& number : numbers) number = Eighth(random);
+  return numbers;
+}
+
+Rows AllSpans(std::mt19937* random) {
+  Rows rows;
+  for (int first = 0; first <= kStride; ++first) {
+    for (int size = 0; first + size <= kStride; ++size) {
+      rows.spans.push_back({first, size});
+      for (int j = 0; j < kStride; ++j) {
+        const bool is_in_span = j >= first && j < first + size;
+        rows.entries.push_back(is_in_span ? Eighth(random) : 0);
+      }
+    }
+  }
+  return rows;
+}
+
+TEST(RowSums, AreThoseOfWholeRows) {
+  std::mt19937 random(1);
+  const Rows rows = AllSpans(&random);
+  const std::vector<double> y = Eighths(kStride, &random);
+  std::vector<RowSums> sums(rows.count());
+  SumRows(rows.entries.data(), kStride, rows.spans.data(), rows.count(),
+          y.data(), sums.data());
+  for (int i = 0; i < rows.count(); ++i) {
+    double product = 0, size = 0, squares = 0;
+    for (int j = 0; j < kStride; ++j) {
+      const double entry = rows.row(i)[j];
+      product += entry * y[j];
+      size += std::abs(entry * y[j]);
+      squares += entry * entry;
+    }
+    const RowSums one = SumRow(rows.row(i), rows.spans[i], y.data());
+    for (const RowSums& sum : {sums[i], one}) {
+      EXPECT_EQ(sum.product, product);
+      EXPECT_EQ(sum.product_size, size);
+      EXPECT_EQ(sum.squared_row_norm, squares);
+    }
+  }
+}
+
+// Random numbers with all their digits, compared with sums in long double.
+TEST(RowSums, RoundAsMuchAsStatedAtMost) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 200; ++n) {
+    std::vector<double> row(n), y(n);
+    long double product = 0, size = 0;
+    for (int j = 0; j < n; ++j) {
+      row[j] = normal(random);
+      y[j] = normal(random);
+      const long double term = static_cast<long double>(row[j]) * y[j];
+      product += term;
+      size += std::abs(term);
+    }
+    const RowSums sums = SumRow(row.data(), {0, n}, y.data());
+    EXPECT_LE(std::abs(sums.product - product), RowSumRounding(n) * size) << n;
+    EXPECT_LE(std::abs(sums.product_size - size), RowSumRounding(n) * size)
+        << n;
+  }
+}
+
+TEST(RowSums, AddRowsWithASize) {
+  std::mt19937 random(3);
+  const Rows rows = AllSpans(&random);
+  const std::vector<double> factor = Eighths(rows.count(), &random);
+  std::vector<double> size = Eighths(rows.count(), &random);
+  std::vector<double> sum(kStride, 1), sum_of_sizes(kStride, 2);
+  int with_size = 0;
+  std::vector<double> expected = sum, expected_sizes = sum_of_sizes;
+  for (int i = 0; i < rows.count(); ++i) {
+    if (i % 3 == 0) size[i] = 0;  // Even with a factor.
+    if (size[i] == 0) continue;
+    ++with_size;
+    for (int j = 0; j < kStride; ++j) {
+      expected[j] += factor[i] * rows.row(i)[j];
+      expected_sizes[j] += std::abs(size[i] * rows.row(i)[j]);
+    }
+  }
+  EXPECT_EQ(AddRowsWithSizes(rows.entries.data(), kStride, rows.spans.data(),
+                             rows.count(), factor.data(), size.data(),
+                             sum.data(), sum_of_sizes.data()),
+            with_size);
+  EXPECT_EQ(sum, expected);
+  EXPECT_EQ(sum_of_sizes, expected_sizes);
+}
+
+TEST(RowSums, FindEveryEntryOutsideASpan) {
+  std::mt19937 random(4);
+  Rows rows = AllSpans(&random);
+  const auto are_zero = [&rows](int i) {
+    return AreZeroOutside(rows.row(i), kStride, &rows.spans[i], 1);
+  };
+  EXPECT_TRUE(AreZeroOutside(rows.entries.data(), kStride, rows.spans.data(),
+                             rows.count()));
+  for (int i = 0; i < rows.count(); ++i) {
+    for (int j = 0; j < kStride; ++j) {
+      const Span span = rows.spans[i];
+      if (j >= span.first && j < span.first + span.size) continue;
+      double& entry = rows.entries[i * kStride + j];
+      for (const double value :
+           {1.0, -1.0, std::numeric_limits<double>::denorm_min(),
+            std::numeric_limits<double>::quiet_NaN()}) {
+        entry = value;
+        EXPECT_FALSE(are_zero(i)) << i << " " << j << " " << value;
+      }
+      entry = -0.0;
+      EXPECT_TRUE(are_zero(i));
+      entry = 0;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace poise
