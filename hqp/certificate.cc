@@ -79,11 +79,11 @@ void Certifier::Certify(const Hierarchy& hierarchy,
                         Solution* solution) noexcept {
   solution->certificate =
       Certify(hierarchy, static_cast<const Solution&>(*solution));
-  StoreGaps(solution);
+  StoreGaps(hierarchy.num_levels(), solution);
 }
 
-void Certifier::StoreGaps(Solution* solution) const {
-  for (size_t level = 0; level < gap_.size(); ++level) {
+void Certifier::StoreGaps(int num_levels, Solution* solution) const {
+  for (int level = 0; level < num_levels; ++level) {
     solution->levels[level].gap = gap_[level];
   }
 }
@@ -113,7 +113,7 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
     solution->failed_level = level;
     break;
   }
-  StoreGaps(solution);
+  StoreGaps(hierarchy.num_levels(), solution);
 }
 
 void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,

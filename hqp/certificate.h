@@ -55,7 +55,7 @@ class Certifier {
     Eigen::VectorXd norm;    ///< |C_i|.
     std::vector<Side> side;  ///< The nearer bound.
   };
-  void StoreGaps(Solution* solution) const;
+  void StoreGaps(int num_levels, Solution* solution) const;
   void AddToGradient(const Hierarchy& hierarchy, int level, bool equalities);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
