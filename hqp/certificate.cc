@@ -54,6 +54,7 @@ Certifier::Certifier(int num_variables,
     rows.size.resize(level.inequalities);
     rows.value.resize(level.inequalities);
     rows.norm.resize(level.inequalities);
+    rows.rounding.resize(level.inequalities);
     rows.side.resize(level.inequalities);
     rows_.push_back(std::move(rows));
   }
@@ -127,15 +128,11 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
 
 // Adds factor_ times the rows of a block to the gradient, and |size_| times their
 // absolute entries to the magnitude of the gradient's terms.
-void Certifier::AddToGradient(const Hierarchy& hierarchy, int level,
-                              bool equalities) {
-  const auto rows = equalities ? hierarchy.B(level) : hierarchy.C(level);
-  const Span* spans =
-      equalities ? hierarchy.B_span(level) : hierarchy.C_span(level);
-  num_terms_ +=
-      AddRowsWithSizes(rows.data(), hierarchy.num_variables(), spans,
-                       static_cast<int>(rows.rows()), factor_.data(),
-                       size_.data(), gradient_.data(), gradient_size_.data());
+void Certifier::AddToGradient(const double* rows, const Span* spans,
+                              int count) {
+  num_terms_ += AddRowsWithSizes(rows, static_cast<int>(gradient_.size()),
+                                 spans, count, factor_.data(), size_.data(),
+                                 gradient_.data(), gradient_size_.data());
 }
 
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
@@ -181,7 +178,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     factor_[i] = weight[i] * residual;
     size_[i] = weight[i] * size;
   }
-  AddToGradient(hierarchy, level, true);
+  AddToGradient(B.data(), B_span, equalities);
   SumRows(C.data(), n, C_span, inequalities, solution.y.data(), sums_.data());
   for (int i = 0; i < inequalities; ++i) {
     const RowSums& sums = sums_[i];
@@ -202,6 +199,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     cost += slack * slack / 2;
     cost_size += size * size / 2;
     const double rounding = RowSumRounding(C_span[i].size) * size;
+    rows.rounding[i] = rounding;
     cost_rounding += (slack + rounding / 2) * rounding;
     slack_rounding += rounding * rounding;
     if (violation > 0 && rows.norm[i] > 0) {
@@ -210,7 +208,7 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     factor_[i] = at_upper ? slack : -slack;
     size_[i] = violation > 0 ? size : 0;
   }
-  AddToGradient(hierarchy, level, false);
+  AddToGradient(C.data(), C_span, inequalities);
   slack_rounding_[level] = std::sqrt(slack_rounding);
   cost_[level] = cost;
   cost_size_[level] = cost_size;
@@ -235,14 +233,15 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
     for (int i = 0; i < B.rows(); ++i) {
       const double lambda = multipliers.equality[i];
       factor_[i] = size_[i] = lambda;
-      if (lambda != 0 &&
-          weight[i] == 0) {  // It does not bind the levels below.
+      // A row of weight 0 does not bind the levels below.
+      if (lambda != 0 && weight[i] == 0) {
         const Span span = hierarchy.B_span(above)[i];
         const double* row = B.row(i).data() + span.first;
         worst = Worse(worst, std::abs(lambda) * Largest(row, span.size));
       }
     }
-    AddToGradient(hierarchy, above, true);
+    AddToGradient(B.data(), hierarchy.B_span(above),
+                  static_cast<int>(B.rows()));
     for (int i = 0; i < C.rows(); ++i) {
       const double mu = multipliers.inequality[i];
       factor_[i] = size_[i] = mu;
@@ -263,7 +262,8 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       }
       worst = Worse(worst, std::max(wrong, 0.0) * Largest(row, span.size));
     }
-    AddToGradient(hierarchy, above, false);
+    AddToGradient(C.data(), hierarchy.C_span(above),
+                  static_cast<int>(C.rows()));
   }
   const double size = gradient_size_.lpNorm<Eigen::Infinity>();
   const double gradient =

@@ -50,13 +50,14 @@ class Certifier {
     Eigen::VectorXd residual;  ///< B y + b.
     /// Violation of the nearer bound; negative if met.
     Eigen::VectorXd violation;
-    Eigen::VectorXd size;    ///< |C_i| |y| + |bound|.
-    Eigen::VectorXd value;   ///< C_i y.
-    Eigen::VectorXd norm;    ///< |C_i|.
-    std::vector<Side> side;  ///< The nearer bound.
+    Eigen::VectorXd size;      ///< |C_i| |y| + |bound|.
+    Eigen::VectorXd value;     ///< C_i y.
+    Eigen::VectorXd norm;      ///< |C_i|.
+    Eigen::VectorXd rounding;  ///< Largest error of the violation by rounding.
+    std::vector<Side> side;    ///< The nearer bound.
   };
   void StoreGaps(int num_levels, Solution* solution) const;
-  void AddToGradient(const Hierarchy& hierarchy, int level, bool equalities);
+  void AddToGradient(const double* rows, const Span* spans, int count);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
   void JudgeMultipliers(const Hierarchy& hierarchy, int level,
@@ -69,7 +70,7 @@ class Certifier {
   void FindGap(const Hierarchy& hierarchy, int level, const Solution& solution);
   double PreciseGradientNorm(const Hierarchy& hierarchy, int level,
                              const Solution& solution);
-  bool IsInside(const Hierarchy& hierarchy, int level, int i) const;
+  bool IsInside(int level, int i) const;
   double LargestGain(const Hierarchy& hierarchy, int level, int above,
                      double radius, const Solution& solution);
   void FindChange(int level);

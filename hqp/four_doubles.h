@@ -13,8 +13,8 @@ typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 }  // namespace poise
 
-// Macros, because a function that returns a vector of this size has another ABI with
-// AVX.
-#define POISE_LOAD(pointer) (*reinterpret_cast<const Four*>(pointer))
-#define POISE_STORE(pointer) (*reinterpret_cast<Four*>(pointer))
+// These are macros, because a function that returns a vector of this size is called in
+// another way with AVX than without it.
+#define POISE_LOAD(pointer) (*reinterpret_cast<const ::poise::Four*>(pointer))
+#define POISE_STORE(pointer) (*reinterpret_cast<::poise::Four*>(pointer))
 #define POISE_SUM(four) (((four)[0] + (four)[2]) + ((four)[1] + (four)[3]))

@@ -14,7 +14,7 @@ namespace {
 POISE_INLINE RowSums Sum(const double* row, Span span, const double* y) {
   const double* r = row + span.first;
   const double* at = y + span.first;
-  const int whole = span.size & ~3;
+  const int whole = span.size - span.size % 4;
   RowSums sums = {};
   if (whole > 0) {  // Most rows have fewer entries.
     Four product = {}, size = {}, squares = {};
@@ -40,7 +40,7 @@ POISE_INLINE void AddWithSize(const double* row, Span span, double factor,
                               double size, double* sum, double* sum_of_sizes) {
   const double* r = row + span.first;
   double *to = sum + span.first, *to_size = sum_of_sizes + span.first;
-  const int whole = span.size & ~3;
+  const int whole = span.size - span.size % 4;
   for (int j = 0; j < whole; j += 4) {
     const Four rj = POISE_LOAD(r + j);
     POISE_STORE(to + j) += rj * factor;
@@ -58,7 +58,7 @@ typedef std::uint64_t Word __attribute__((may_alias));
 
 // Returns the bits that are set in any entry, but for the signs.
 POISE_INLINE std::uint64_t BitsOf(const double* x, int n) {
-  const int whole = n & ~3;
+  const int whole = n - n % 4;
   FourWords bits = {};
   for (int j = 0; j < whole; j += 4) {
     bits |= *reinterpret_cast<const FourWords*>(x + j);

@@ -13,9 +13,9 @@ struct RowSums {
 };
 
 /// Largest rounding of RowSums and one more addition, relative to the magnitudes of
-/// the terms, for a span of n columns: one for the product, n / 4 + 3 for the sum of one
-/// of four lanes, two for the sum of the lanes, and two more for the addition and for
-/// higher orders.
+/// the terms, for a span of n columns: one for the product, n / 4 - 1 for the sum of one
+/// of four lanes, two for the sum of the lanes, three for the columns after the last
+/// whole four, one for the addition, and two for higher orders.
 double RowSumRounding(int n);
 
 /// Returns the sums of a row. The row and y start at column 0.

@@ -101,7 +101,7 @@ TEST(RowSums, AddRowsWithASize) {
   int with_size = 0;
   std::vector<double> expected = sum, expected_sizes = sum_of_sizes;
   for (int i = 0; i < rows.count(); ++i) {
-    if (i % 3 == 0) size[i] = 0;  // Even with a factor.
+    if (i % 3 == 0) size[i] = 0;  // The factor must not count then.
     if (size[i] == 0) continue;
     ++with_size;
     for (int j = 0; j < kStride; ++j) {

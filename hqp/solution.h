@@ -31,8 +31,8 @@ struct LevelMultipliers {
 /// The answer for one level.
 struct LevelSolution {
   double cost;  ///< 1/2 (sum weight r^2 + |slack|^2).
-  /// Certifier::gap(), which each solver fills with the certificate. Infinite if the
-  /// hierarchy is invalid.
+  /// Bound of Certifier::gap(). Each solver stores it with the certificate. It is infinite
+  /// below failed_level, and on all levels if the hierarchy is invalid.
   double gap;
   Eigen::VectorXd equality_residual;  ///< B y + b.
   Eigen::VectorXd slack;              ///< max(lower - C y, C y - upper, 0).

@@ -21,6 +21,7 @@ void ExpectAsConstructed(const Solution& solution, int num_variables) {
   EXPECT_TRUE(solution.y.isZero(0));
   for (const LevelSolution& level : solution.levels) {
     EXPECT_EQ(level.cost, 0);
+    EXPECT_EQ(level.gap, kInfinity);
     EXPECT_TRUE(level.equality_residual.isZero(0));
     EXPECT_TRUE(level.slack.isZero(0));
     for (const Side side : level.active) EXPECT_EQ(side, Side::kNone);
@@ -40,6 +41,7 @@ void FillWithSevens(Solution* solution) {
   solution->certificate.priority = 7;
   for (LevelSolution& level : solution->levels) {
     level.cost = 7;
+    level.gap = 7;
     level.equality_residual.setConstant(7);
     level.slack.setConstant(7);
     level.active.assign(level.active.size(), Side::kUpper);

@@ -103,6 +103,7 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     solution->Reset();
     solution->status = status;
     solution->failed_level = failed_level;
+    // The gaps of an invalid hierarchy stay infinite.
     solution->certificate = certifier_.Certify(hierarchy, *solution);
     num_cut_off_ = 0;
     return solution->status;
@@ -136,7 +137,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
       problem_.Plan(hierarchy, hierarchy.num_levels());
       problem_.SolveLeading(hierarchy, side_);
       KeepSearch(hierarchy, solution);
-    } else if (!WriteSolution(hierarchy, solution)) {
+    } else if (!WriteSolution(hierarchy, solution) ||
+               solution->failed_level >= 0) {
       certifier_.Truncate(hierarchy, solution);
     }
   }
@@ -230,8 +232,12 @@ void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   if (solution->status == Status::kOptimal) {
     // No search has shown that y is the shortest one.
     solution->status = Status::kIterationLimit;
-    solution->failed_level = std::max(hierarchy.num_levels() - 1, 0);
-    certifier_.Truncate(hierarchy, solution);
+    const int last = std::max(hierarchy.num_levels() - 1, 0);
+    solution->failed_level = last;
+    // All levels are certified, so that the gap of the last one holds as well.
+    const double gap = hierarchy.num_levels() > 0 ? certifier_.gap(last) : 0;
+    certifier_.Certify(hierarchy, solution);
+    if (hierarchy.num_levels() > 0) solution->levels[last].gap = gap;
   }
   search_.Stop(hierarchy, problem_, &side_);
 }

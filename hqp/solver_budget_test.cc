@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <random>
 #include <vector>
@@ -18,6 +19,15 @@ namespace {
 
 constexpr double kTolerance = 1e-14;  // A few operations on numbers near 1.
 constexpr double kCertified = Certifier::kCertified;
+
+void ExpectGapsDownToFailedLevel(const Hierarchy& hierarchy,
+                                 const Solution& solution) {
+  const int failed = solution.failed_level;
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    const double gap = solution.levels[level].gap;
+    EXPECT_EQ(std::isfinite(gap), failed < 0 || level <= failed) << level;
+  }
+}
 
 // The number of iterations is bounded by max_iterations, also when the budget
 // is too small for the answer.
@@ -35,6 +45,7 @@ TEST(SolverBudget, TakesNoMoreIterationsThanItsLimit) {
       const Status status = solver.Solve(drawn.hierarchy, &solution);
       EXPECT_LE(solution.iterations, budget);
       EXPECT_EQ(status == Status::kOptimal, solution.failed_level < 0);
+      ExpectGapsDownToFailedLevel(drawn.hierarchy, solution);
       // The levels above failed_level are certified.
       EXPECT_LE(certifier.Certify(drawn.hierarchy, solution).worst(),
                 kCertified);
@@ -146,44 +157,57 @@ TEST(SolverBudget, GoesOnAlongAPath) {
   EXPECT_GT(stopped, 200);
 }
 
+struct Stopped {
+  int solves = 0;
+  int worse = 0;  // Answers that are worse than with one iteration less.
+};
+
 // Solves `changed` from the optimum of `drawn`, with limits of 0, 1, 2, ... iterations
-// until none is needed. Expects that no answer is worse than the one of a smaller limit.
-// Returns the number of solves that were stopped.
-int SolveWithLargerLimits(const HierarchyCase& drawn,
-                          const Hierarchy& changed) {
+// until none is needed.
+Stopped SolveWithLargerLimits(const HierarchyCase& drawn,
+                              const Hierarchy& changed) {
+  constexpr int kMost = 100;
   const int n = drawn.hierarchy.num_variables();
   Solver solver(n, drawn.capacity);
   Solution now(n, drawn.capacity);
   std::optional<Solution> before;
-  for (int limit = 0;; ++limit) {
+  Stopped stopped;
+  Status status = Status::kIterationLimit;
+  for (int limit = 0; status != Status::kOptimal && limit < kMost; ++limit) {
     SCOPED_TRACE(limit);
     solver.Forget();
     solver.max_iterations = 500;
     EXPECT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
     solver.max_iterations = limit;
-    const Status status = solver.Solve(changed, &now);
-    EXPECT_TRUE(!before || IsNoWorse(changed, now, *before));
+    status = solver.Solve(changed, &now);
+    stopped.worse += before && !IsNoWorse(changed, now, *before);
     before = now;
-    if (status == Status::kOptimal || limit == 100) return limit;
+    stopped.solves += status != Status::kOptimal;
   }
+  EXPECT_EQ(status, Status::kOptimal);
+  return stopped;
 }
 
-// The cost of a level need not fall at each step of a path, so that a few problems in
-// a thousand break this; none of these 200 does (docs/limits.md).
+// The cost of a level need not fall at each step of a path. So of 20 000 problems, 66
+// have an answer that is worse with one iteration more (docs/limits.md); of 200, five or
+// more have one with a probability below 1e-3.
 TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.max_inequalities = 12;
-  int stopped = 0;
+  int stopped = 0, worse = 0;
   for (int seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn =
         WithRoomToChange(MakeRandomHierarchy(seed, options));
     HierarchyCase changed = drawn;
     ChangeHierarchy(seed, &changed);
-    stopped += SolveWithLargerLimits(drawn, changed.hierarchy);
+    const Stopped of = SolveWithLargerLimits(drawn, changed.hierarchy);
+    stopped += of.solves;
+    worse += of.worse > 0;
   }
   EXPECT_GT(stopped, 200);
+  EXPECT_LT(worse, 5);
 }
 
 // The rows change in each solve, and bounds become infinite or equal, while the budget

@@ -129,8 +129,9 @@ void BindTickReport(py::module_* module) {
       "The Certificate of the solution.");
   report.def_property_readonly(
       "gap", [](const PythonReport& self) { return self.report.gap; },
-      "For each priority level, how far its cost may be above its optimum; NaN "
-      "if no task uses the level.");
+      "For each priority level, how far its cost may be above its optimum; inf "
+      "below a level that was not solved, NaN if the solver has no such "
+      "level.");
   report.def_property_readonly(
       "y",
       [](py::object self) {

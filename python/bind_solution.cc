@@ -112,8 +112,7 @@ void BindLevelSolution(py::module_* module) {
       "(sum of weight (B y + b)^2 + |slack|^2) / 2.");
   level.def_property_readonly(
       "gap", [](const PythonLevelSolution& self) { return self.answer().gap; },
-      "How far the cost may be above its optimum, given the levels above. "
-      "Computed by each read, as Solution.gap.");
+      "How far the cost may be above its optimum, given the levels above.");
   level.def_property_readonly(
       "residual",
       [](const PythonLevelSolution& self) {

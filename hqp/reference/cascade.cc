@@ -111,6 +111,7 @@ Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   solution->Reset();
   solution->status = CheckInput(hierarchy, &solution->failed_level);
   if (solution->status != Status::kOptimal) {
+    // The gaps of an invalid hierarchy stay infinite.
     solution->certificate = certifier_.Certify(hierarchy, *solution);
     return solution->status;
   }

@@ -42,6 +42,8 @@ class ControllerTest(unittest.TestCase):
         np.testing.assert_allclose(tau[:6], 0, atol=1e-6)
         np.testing.assert_allclose(command.tau, tau[6:], atol=1e-6)
         self.assertLess(report.certificate.worst, 1e-9)
+        self.assertLess(report.gap[0], 1e-9)
+        self.assertTrue(np.isnan(report.gap[-1]))
 
     def test_moves_to_the_reference(self):
         controller = started()

@@ -57,6 +57,8 @@ class SolverTest(unittest.TestCase):
         solver.solve(other)
         self.assertEqual(solution.explain(), text)
         self.assertEqual([level.gap for level in solution.levels], gap)
+        # The costs are numbers near 1, or zero.
+        np.testing.assert_array_less(gap, 1e-9)
         self.assertEqual(repr(solution), "<poise.Solution, optimal, 3 levels>")
 
     def test_finds_the_conflict(self):
@@ -113,6 +115,7 @@ class SolverTest(unittest.TestCase):
             self.assertEqual(solution.status, status)
             np.testing.assert_array_equal(solution.y, [0, 0])
             self.assertEqual(solution.conflict(0), [])
+            self.assertEqual(solution.gap, [np.inf])
             self.assertIn(status, solution.explain())
 
     def test_two_threads_get_the_answers_of_their_own_problems(self):

@@ -79,7 +79,6 @@ def long_calls():
     force = np.array([0.0, 1.0, 0.0])
     page = tempfile.NamedTemporaryFile(suffix=".html").name
     yield "explain", solution.explain
-    yield "gap", lambda: solution.gap
     yield "Controller", lambda: poise.Controller(ROBOT)
     yield "start", lambda: controller.start(state)
     yield "Scenario.load", lambda: poise.Scenario.load("stand")

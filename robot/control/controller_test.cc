@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "poise/dynamics/integrate.h"
 #include "poise/hqp/certificate.h"
@@ -234,6 +236,20 @@ TEST_F(ControllerTest, SolutionHasOptimalCertificate) {
   EXPECT_LT(certificate.stationarity, 1e-9);
   EXPECT_LT(certificate.feasibility, 1e-9);
   EXPECT_LT(certificate.priority, 1e-9);
+}
+
+TEST_F(ControllerTest, ReportsTheGapOfEachPriorityLevel) {
+  const std::vector<double>& gap = controller_.report().gap;
+  ASSERT_EQ(gap.size(), static_cast<size_t>(Stack::kMaxLevel));
+  EXPECT_TRUE(std::isnan(gap[0]));  // No tick was solved yet.
+  ASSERT_TRUE(controller_.stack().SetLevel("posture", 7));
+  Update();
+  EXPECT_LT(gap[0], 1e-9);  // Level 1 is met.
+  EXPECT_TRUE(std::isfinite(gap[6]));
+  EXPECT_TRUE(std::isnan(gap[7]));
+  state_.v[0] = std::numeric_limits<double>::quiet_NaN();
+  Update();
+  EXPECT_TRUE(std::isnan(gap[6]));  // The solver did not run.
 }
 
 TEST_F(ControllerTest, MeetsDynamicsInWeightedQp) {

@@ -67,7 +67,9 @@ struct TickReport {
   /// Rows that are violated, except those of the last level.
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Certificate of the solution.
-  /// LevelSolution::gap of priority level i + 1; NaN if no task uses this level.
+  /// LevelSolution::gap of priority level i + 1. NaN if the hierarchy has no such
+  /// level, and if the solver did not run. With one weighted QP, all levels below the
+  /// first one are one level of the hierarchy, at the second one in use.
   std::vector<double> gap;
 
   /// Resets the numbers of the solution, for a tick in which the solver did not

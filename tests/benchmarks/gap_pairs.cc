@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
 #include "poise/tests/exact/lexicographic_qp.h"

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "poise/hqp/certificate.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/solution.h"
 

@@ -69,8 +69,8 @@ const NUMBERS = [
     value: (s) => s.hqp.certificate_max,
     why: (s) => `Every solution is checked. At most ${s.hqp.iterations_max} ` +
         `iterations, ${s.hqp.failures || 'no'} ` +
-        `failure${s.hqp.failures === 1 ? '' : 's'}. The cost of a level is ` +
-        `at most ${formatNumber(s.gap_max)} of itself above its optimum.`,
+        `failure${s.hqp.failures === 1 ? '' : 's'}. Gaps of solved ` +
+        `levels are at most ${formatNumber(s.gap_max)} of the level's cost.`,
   },
 ];
 
