@@ -100,6 +100,34 @@ TEST(GapByHand, IsSmallForPositiveMultiplesOfTheResiduals) {
   }
 }
 
+// Level 0 has the bounds y_0 <= 0 and y_0 >= 2, so that its optimum is y_0 = 1 with a
+// slack of 1 at both. Level 1 has the target y_0 = 3. The answer is y_0 = 1 + off: level 0
+// costs off^2 too much, and level 1 -2 off, since its multipliers act on the slacks.
+TEST(GapByHand, CoversTheSlacksOfBoundsThatContradictEachOther) {
+  for (const double off : {-1e-2, -1e-4, -1e-6}) {
+    SCOPED_TRACE(off);
+    const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
+    Hierarchy hierarchy(1, capacity);
+    InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+    bounds.C << 1, 1;
+    bounds.lower << -std::numeric_limits<double>::infinity(), 2;
+    bounds.upper << 0, std::numeric_limits<double>::infinity();
+    EqualityBlock target = hierarchy.AddEqualities(1, 1);
+    target.B << 1;
+    target.b << -3;
+    Solution solution(1, capacity);
+    solution.y << 1 + off;
+    EvaluateLevel(hierarchy, 0, &solution);
+    EvaluateLevel(hierarchy, 1, &solution);
+    solution.levels[1].multipliers[0].inequality.setConstant((2 - off) / 2);
+    Certifier certifier(1, capacity);
+    const Certificate certificate = certifier.Certify(hierarchy, solution);
+    EXPECT_LE(certificate.complementarity, 1e-15);
+    EXPECT_GE(certifier.gap(0), off * off);
+    EXPECT_GE(certifier.gap(1), -2 * off);
+  }
+}
+
 // Level 1 minimises |B d + r|^2 / 2 with B = (1, 600; 0, 800) and d = y - (8, 0). At
 // d = 0 its gradient B' r is (1, 0). With y_1 <= 1 / 2048, the optimum is y_1 = 1 / 2048
 // and d_0 = -1 - 600 y_1 = -1.293, where the multiplier of the bound is 600 - 640000 y_1
