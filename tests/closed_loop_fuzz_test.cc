@@ -73,7 +73,8 @@ std::vector<std::string> Cells(const std::string& line) {
 // Describes the first fault of a log file, or returns "". The log must have one
 // row per tick. Each cell must be a finite number, except in the columns of
 // words. The center of pressure may be NaN: it is undefined while the feet
-// carry no load. So may the planned step while the robot does not step.
+// carry no load. So may the planned step while the robot does not step. A gap may be
+// infinite, or NaN in a tick that fails safe.
 std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
   std::ifstream stream(file);
   std::string line;
@@ -97,6 +98,8 @@ std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
       const bool may_be_nan =
           names[i].rfind("cop.", 0) == 0 || names[i].rfind("plan.", 0) == 0;
       if (std::isnan(number) && may_be_nan) continue;
+      const bool is_gap = names[i].rfind("gap.", 0) == 0;
+      if (is_gap && is_number && !(number < 0)) continue;
       if (!is_number || !std::isfinite(number)) {
         return row + "'" + cells[i] + "' in " + names[i];
       }

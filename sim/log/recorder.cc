@@ -23,6 +23,15 @@ constexpr double kNoticeableSlack = 1e-6;
 // many ticks, and a search costs about ten solutions of the hierarchy.
 constexpr double kBetweenConflicts = 0.05;
 
+// Returns the last priority level that a task has.
+int LastLevel(const Stack& stack) {
+  int last = 0;
+  for (int i = 0; i < stack.num_tasks(); ++i) {
+    last = std::max(last, stack.settings(i).level);
+  }
+  return last;
+}
+
 std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   std::vector<std::string> feet, joints, tasks;
   for (const Foot& foot : robot.feet) feet.push_back(foot.name);
@@ -32,7 +41,7 @@ std::vector<LogColumn> Columns(const Robot& robot, const Stack& stack) {
   for (int i = 0; i < stack.num_tasks(); ++i) {
     tasks.emplace_back(stack.task(i).name());
   }
-  return LogColumns(feet, joints, tasks, Stack::kMaxLevel);
+  return LogColumns(feet, joints, tasks, LastLevel(stack));
 }
 
 // Returns the cell that says why a tick is not ok; empty if it is.
@@ -144,6 +153,7 @@ std::string_view PhaseName(ContactPhase phase) {
 Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
                    const Stack& stack, LogFormat format)
     : body_names_(BodyNames(robot.model.tree)),
+      num_levels_(LastLevel(stack)),
       rows_(MakeLogRows(format, Columns(robot, stack))) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -257,7 +267,7 @@ void Recorder::Record(const TickRecord& record) {
   vector(now.xi);
   for (const FootObservation& foot : now.feet) vector(foot.X_WC.p);
   PlanCells(record);
-  vector(record.report.gap);
+  for (int i = 0; i < num_levels_; ++i) rows_->Number(record.report.gap[i]);
   TextCells(record);
   const size_t before = log_rows_.size();
   rows_->EndRow(&log_rows_);
