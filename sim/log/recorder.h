@@ -50,7 +50,7 @@ class Recorder {
   void TextCells(const TickRecord& record);
 
   std::vector<std::string> body_names_;
-  int num_levels_;  // Of priority, that have a column for the gap.
+  int num_levels_;  // Number of columns for gaps.
   std::ofstream log_;
   std::ofstream timing_;
   std::unique_ptr<LogRows> rows_;
