@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "poise/hqp/certificate.h"
@@ -126,19 +127,28 @@ TEST(SolverBudget, GoesOnFromWhereItWasStopped) {
   EXPECT_GT(stopped, 200);
 }
 
-// As above, after the rows have changed, so that the search follows a path from the
-// last optimum.
-TEST(SolverBudget, GoesOnAlongAPath) {
+struct Neighbors {
+  HierarchyCase drawn, changed;
+};
+
+// Draws a hierarchy, and the same one after ChangeHierarchy().
+Neighbors DrawNeighbors(int seed) {
   RandomHierarchyOptions options;
   options.scaled = 0;
   options.max_inequalities = 12;
+  HierarchyCase drawn = WithRoomToChange(MakeRandomHierarchy(seed, options));
+  HierarchyCase changed = drawn;
+  ChangeHierarchy(seed, &changed);
+  return {std::move(drawn), std::move(changed)};
+}
+
+// As above, after the rows have changed, so that the search follows a path from the
+// last optimum.
+TEST(SolverBudget, GoesOnAlongAPath) {
   int stopped = 0;
   for (int seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    const HierarchyCase drawn =
-        WithRoomToChange(MakeRandomHierarchy(seed, options));
-    HierarchyCase changed = drawn;
-    ChangeHierarchy(seed, &changed);
+    const auto [drawn, changed] = DrawNeighbors(seed);
     const int n = drawn.hierarchy.num_variables();
     Solver solver(n, drawn.capacity), cold(n, drawn.capacity);
     Solution optimum(n, drawn.capacity), now(n, drawn.capacity);
@@ -192,16 +202,10 @@ Stopped SolveWithLargerLimits(const HierarchyCase& drawn,
 // have an answer that is worse with one iteration more (docs/limits.md); of 200, five or
 // more have one with a probability below 1e-3.
 TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
-  RandomHierarchyOptions options;
-  options.scaled = 0;
-  options.max_inequalities = 12;
   int stopped = 0, worse = 0;
   for (int seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
-    const HierarchyCase drawn =
-        WithRoomToChange(MakeRandomHierarchy(seed, options));
-    HierarchyCase changed = drawn;
-    ChangeHierarchy(seed, &changed);
+    const auto [drawn, changed] = DrawNeighbors(seed);
     const Stopped of = SolveWithLargerLimits(drawn, changed.hierarchy);
     stopped += of.solves;
     worse += of.worse > 0;

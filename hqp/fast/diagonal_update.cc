@@ -46,7 +46,7 @@ bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
   return true;
 }
 
-// Finds direction_, a unit vector in the row space of Q and orthogonal to that of T, or
+// Finds direction_, a unit vector in the row space of Q and orthogonal to that of T. It
 // returns false if there is none. If a row of Q is not in the row space of T, neither is
 // the sum of all rows with factors that are all different, except by chance.
 bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
@@ -56,7 +56,7 @@ bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading) {
   return Normalize() && SubtractProjectionOnT() && SubtractProjectionOnT();
 }
 
-// Finds direction_, a unit vector in the row space of T and orthogonal to that of Q, or
+// Finds direction_, a unit vector in the row space of T and orthogonal to that of Q. It
 // returns false if there is none.
 bool DiagonalLevels::FindRemoved(const LexicographicFactorization& leading) {
   FindSumOfT(false);
