@@ -16,15 +16,19 @@ With --dynamics, compares the dynamics with Pinocchio's instead, for our
 humanoid with 50, 80 and 120 joints or for robots of URDF files, built with and
 without -march=native. The table is also written to dynamics.md.
 
-DIR holds the checkouts of the peers, as DIR/lexls, DIR/soth and DIR/pinocchio.
-A missing one is skipped. --out keeps programs and ticks (500 MB); a second run
-reuses them.
-Exit code: 0 if at least one peer was compared, 1 if dynamics differ, 2 for bad
-input.
+With --tick, compares whole ticks of the controller with those of TSID instead,
+on states of our humanoid in closed loop. The table is also written to tick.md.
+
+DIR holds the checkouts of the peers, as DIR/lexls, DIR/soth, DIR/pinocchio,
+DIR/tsid and DIR/eiquadprog. A missing one is skipped. --out keeps programs and
+ticks (500 MB); a second run reuses them.
+Exit code: 0 if at least one peer was compared, 1 if dynamics differ or a tick
+does not meet the dynamics, 2 for bad input.
 
   bazel run //tests/peers:compare -- --peers DIR
   bazel run //tests/peers:compare -- --peers DIR --hqp FILES
   bazel run //tests/peers:compare -- --peers DIR --dynamics [URDF]
+  bazel run //tests/peers:compare -- --peers DIR --tick
 """
 
 import argparse
@@ -38,12 +42,15 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+import controllers  # noqa: E402
 import dynamics  # noqa: E402
 import figures  # noqa: E402
 import histograms  # noqa: E402
 import problems  # noqa: E402
-from build import DYNAMICS, SOLVER, BuildError, Builder  # noqa: E402
-from peers import DYNAMICS_PEERS, PEERS, boost_folder  # noqa: E402
+from build import (  # noqa: E402
+    CONTROL, DYNAMICS, SOLVER, BuildError, Builder)
+from peers import (  # noqa: E402
+    CONTROLLER_PEERS, DYNAMICS_PEERS, PEERS, boost_folder)
 
 Sequence = collections.namedtuple("Sequence", "name force limits torque")
 
@@ -65,6 +72,7 @@ PASSES = 5
 RECORDER = pathlib.Path("tests/peers/record_ticks")
 HQP_TICKS = pathlib.Path("tests/peers/hqp_ticks")
 TREE_RECORDER = pathlib.Path("tests/peers/record_tree")
+STATE_RECORDER = pathlib.Path("tests/peers/record_states")
 
 
 class InputError(Exception):
@@ -97,6 +105,8 @@ def parse_arguments(arguments):
     parser.add_argument("--dynamics", metavar="URDF", type=pathlib.Path,
                         nargs="*", help="compare the dynamics of these robots, "
                         "or of our humanoid")
+    parser.add_argument("--tick", action="store_true",
+                        help="compare whole ticks of the controller")
     options = parser.parse_args(arguments)
     if os.environ.get("POISE_PARSE_ONLY"):
         sys.exit(0)
@@ -106,8 +116,8 @@ def parse_arguments(arguments):
     if not options.peers.is_dir():
         raise InputError(
             f"--peers: {options.peers} is not a folder, want one with the "
-            "checkouts " + ", ".join(
-                peer.name for peer in (*PEERS, *DYNAMICS_PEERS)))
+            "checkouts " + ", ".join(peer.name for peer in (
+                *PEERS, *DYNAMICS_PEERS, *CONTROLLER_PEERS)))
     options.hqp = find_files("--hqp", options.hqp, here,
                              "files of the format hqp-1 or folders of them")
     if options.hqp is not None:
@@ -121,8 +131,11 @@ def choose_peers(peers, folder, say):
     """Returns the peers that can be compared, and says which cannot."""
     chosen = []
     for peer in peers:
-        if not peer.is_in(folder):
-            say(peer.missing(folder))
+        missing = [each.missing(folder) for each in peer.checkouts()
+                   if not each.is_in(folder)]
+        if missing:
+            for line in missing:
+                say(line)
         elif peer.needs_boost and boost_folder(folder) is None:
             say(f"{peer.name}: needs Boost's headers, skipped; install "
                 f"libboost-dev, or put them in {folder / 'boost/boost'}")
@@ -142,9 +155,8 @@ def workspace():
 def build_programs(builder, peers, folder):
     """Returns {name: program} of the peers whose checkouts are in a folder."""
     return {
-        peer.name: builder.program(
-            peer.name, peer.adapter, peer, folder / peer.name,
-            boost_folder(folder) if peer.needs_boost else None)
+        peer.name: builder.program(peer.name, builder.jobs_of(
+            peer, folder, boost_folder(folder) if peer.needs_boost else None))
         for peer in peers}
 
 
@@ -152,7 +164,7 @@ def build_solvers(options):
     """Returns {name: program}, Poise first."""
     peers = choose_peers(PEERS, options.peers, print)
     builder = Builder(workspace(), options.out, SOLVER, ["-march=native"])
-    return {"Poise": builder.program("poise", "poise_peer.cc"),
+    return {"Poise": builder.program("poise", adapter="poise_peer.cc"),
             **build_programs(builder, peers, options.peers)}
 
 
@@ -267,6 +279,36 @@ def compare_dynamics(options, say):
     return 0 if agrees else 1
 
 
+def compare_controllers(options, say):
+    """Says the rows of the table, one sequence after the other.
+
+    Returns 0, or 1 if an answer does not meet the dynamics.
+    """
+    peers = choose_peers(CONTROLLER_PEERS, options.peers, print)
+    builder = Builder(workspace(), options.out / "controllers", CONTROL,
+                      ["-march=native"])
+    programs = build_programs(builder, peers, options.peers)
+    for line in controllers.head():
+        say(line)
+    meets = True
+    for sequence in SEQUENCES:
+        if sequence.torque != 1:
+            continue
+        states = make_file(STATE_RECORDER, [sequence.force, sequence.limits],
+                           options.out, f"{sequence.force}-{sequence.limits}")
+        for program in programs.values():
+            ticks = controllers.read(output_of(
+                [program, states, sequence.limits, PASSES]))
+            for line in controllers.rows(sequence.name, ticks,
+                                         has_goal=sequence.limits):
+                say(line)
+            residual = controllers.largest_residual(ticks)
+            meets &= residual <= controllers.MOST_RESIDUAL
+    if not meets:
+        say(f"A residual is above {controllers.MOST_RESIDUAL}.")
+    return 0 if meets else 1
+
+
 def main(arguments):
     options = parse_arguments(arguments)
     lines = []
@@ -280,6 +322,9 @@ def main(arguments):
         if options.dynamics is not None:
             code = compare_dynamics(options, say)
             name = "dynamics.md"
+        elif options.tick:
+            code = compare_controllers(options, say)
+            name = "tick.md"
         elif options.hqp is not None:
             compare_problems(build_solvers(options), options.hqp, options.out,
                              say)

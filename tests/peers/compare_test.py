@@ -15,15 +15,18 @@ HERE = pathlib.Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import compare  # noqa: E402
+import controllers  # noqa: E402
 import dynamics  # noqa: E402
 import families  # noqa: E402
 import figures  # noqa: E402
 import histograms  # noqa: E402
 import problems  # noqa: E402
-from peers import PEERS  # noqa: E402
+from peers import CONTROLLER_PEERS, PEERS  # noqa: E402
 
 MEASURE = sys.argv.pop(1)
 HQP_TICKS = sys.argv.pop(1)
+MEASURE_CONTROLLERS = sys.argv.pop(1)
+RECORD_STATES = sys.argv.pop(1)
 
 TOY = {"format": "hqp-1", "variables": 1, "levels": [
     {"B": [[1]], "b": [-2]}, {"A": [[1]], "a": [-1]}]}
@@ -52,7 +55,7 @@ class MessagesTest(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertRegex(error, r"^compare: --peers: .*/none is not a folder, "
                                 r"want one with the checkouts lexls, soth, "
-                                r"pinocchio\n$")
+                                r"pinocchio, tsid\n$")
 
     def test_folder_is_required(self):
         code, _, error = run()
@@ -111,6 +114,30 @@ class MessagesTest(unittest.TestCase):
         self.assertIn("check out https://github.com/stack-of-tasks/pinocchio",
                       output)
         self.assertIn("has no peer to compare with", error)
+
+    def test_whole_ticks_need_all_checkouts_of_the_peer(self):
+        tsid = CONTROLLER_PEERS[0]
+        proof = self.folder / "tsid" / tsid.proof
+        proof.parent.mkdir(parents=True)
+        proof.write_text("")
+        code, output, error = run("--peers", str(self.folder), "--tick")
+        self.assertEqual(code, 2)
+        lines = output.splitlines()
+        self.assertEqual(len(lines), 2)
+        for line, name in zip(lines, ("eiquadprog", "pinocchio")):
+            self.assertIn(
+                f"check out https://github.com/stack-of-tasks/{name} at", line)
+        self.assertIn("has no peer to compare with", error)
+
+    def test_measure_controllers_names_a_file_of_another_format(self):
+        path = self.folder / "states"
+        path.write_text("text")
+        result = subprocess.run([MEASURE_CONTROLLERS, str(path), "1", "1"],
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(
+            result.stderr, f"measure_controllers: {path}: not a file of "
+            "recorded states, want poise-states-1; record it again\n")
 
     def test_missing_recorder_is_an_error(self):
         with self.assertRaisesRegex(compare.InputError, "bazel run"):
@@ -292,6 +319,66 @@ class DynamicsTest(unittest.TestCase):
         self.assertEqual(dynamics.robots([pathlib.Path("x/a.urdf")]),
                          [("a", "x/a.urdf")])
         self.assertEqual(len(dynamics.robots([])), len(dynamics.OUR_ROBOTS))
+
+
+def controlled(*ticks):
+    """Returns counted ticks from triples (time, is_solved, residual)."""
+    return [controllers.Tick(*each) for each in ticks]
+
+
+class ControllersTest(unittest.TestCase):
+    def test_reads_the_counted_ticks_of_each_controller(self):
+        text = "".join(f"{name} {i}.5 {int(i != 51)} 1e-14\n"
+                       for name in ("Poise", "TSID") for i in range(52))
+        self.assertEqual(controllers.NOT_COUNTED, 50)
+        expected = controlled((50.5, True, 1e-14), (51.5, False, 1e-14))
+        self.assertEqual(controllers.read(text),
+                         {"Poise": expected, "TSID": expected})
+
+    def test_rows_have_the_ratios_of_poise_to_the_peer(self):
+        ticks = {"Poise": controlled((20, True, 1e-14), (90, True, 2e-14)),
+                 "TSID": controlled((80, True, 3e-13), (100, False, 7))}
+        rows = controllers.rows("a", ticks, has_goal=True)
+        self.assertEqual(rows, [
+            "| a | Poise | 20.0 | 90.0 | 90.0 | 0 | 2e-14 |  |  |  |  |",
+            "| a | TSID | 80.0 | 100.0 | 100.0 | 1 | 3e-13 | 0.250 | 0.900 "
+            "| 0.900 | yes |"])
+        self.assertEqual({line.count("|") for line in controllers.head()},
+                         {row.count("|") for row in rows})
+        self.assertTrue(controllers.rows("a", ticks, has_goal=False)[1]
+                        .endswith("| 0.900 | 0.900 |  |"))
+
+    def test_poise_solves_all_ticks_of_a_recorded_push(self):
+        with tempfile.TemporaryDirectory() as folder:
+            states = pathlib.Path(folder) / "states"
+            compare.output_of([RECORD_STATES, 120, 1, states])
+            ticks = controllers.read(compare.output_of(
+                [MEASURE_CONTROLLERS, states, 1, 1]))
+        self.assertEqual(list(ticks), ["Poise"])
+        self.assertEqual(len(ticks["Poise"]), 400)
+        self.assertTrue(all(tick.is_solved for tick in ticks["Poise"]))
+        self.assertTrue(all(tick.time > 0 for tick in ticks["Poise"]))
+        self.assertLessEqual(controllers.largest_residual(ticks),
+                             controllers.MOST_RESIDUAL)
+
+    def test_goal_bounds_the_median_and_the_worst(self):
+        theirs = controllers.Figures(100, 100, 200, 0, 0)
+        for median, worst, expected in (
+            (25, 200, True), (26, 200, False), (25, 201, False),
+        ):
+            ours = controllers.Figures(median, 999, worst, 0, 0)
+            self.assertEqual(controllers.goal(ours, theirs), expected)
+
+    def test_the_largest_residual_is_that_of_solved_ticks(self):
+        ticks = {"Poise": controlled((1, True, 1e-14), (1, False, 5)),
+                 "TSID": controlled((1, True, 2e-13), (1, False, math.nan))}
+        self.assertEqual(controllers.largest_residual(ticks), 2e-13)
+        ticks["TSID"] += controlled((1, True, math.nan))
+        self.assertTrue(math.isnan(controllers.largest_residual(ticks)))
+
+    def test_no_residual_without_a_solved_tick(self):
+        ticks = {"Poise": controlled((1, False, 5))}
+        self.assertEqual(controllers.largest_residual(ticks), 0)
 
 
 class HistogramsTest(unittest.TestCase):

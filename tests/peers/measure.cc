@@ -8,8 +8,6 @@
 // With SECONDS, the ticks are solved in 3 to 50 passes until the time is over.
 // Each pass begins with a cold solve, and each tick has the time of its fastest
 // pass.
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,6 +17,7 @@
 #include <vector>
 
 #include "poise/tests/peers/peer.h"
+#include "poise/tests/peers/thread_time.h"
 #include "poise/tests/peers/tick_file.h"
 
 namespace poise {
@@ -28,13 +27,6 @@ struct LevelResult {
   double cost;
   double floor;  // Costs below it count as this cost.
 };
-
-double ThreadTime() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) +
-         1e-3 * static_cast<double>(now.tv_nsec);
-}
 
 double SquareIfFinite(double bound) {
   return std::isfinite(bound) ? bound * bound : 0;

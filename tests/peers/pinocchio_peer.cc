@@ -5,8 +5,6 @@
 // time of Poise and of Pinocchio [us], and the largest relative difference of
 // the results (nan if one is NaN), or -1 where they are not compared. Results
 // are compared in Pinocchio's conventions, see dynamics/conventions.h.
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,6 +34,8 @@
 #include "poise/dynamics/derivatives.h"
 #include "poise/dynamics/rnea.h"
 #include "poise/dynamics/tick.h"
+#include "poise/tests/peers/pinocchio_model.h"
+#include "poise/tests/peers/thread_time.h"
 #include "poise/tests/peers/tree_file.h"
 #include "poise/tests/util/random_tree.h"
 
@@ -48,66 +48,6 @@ using Eigen::VectorXd;
 
 constexpr int kStates = 64;
 constexpr int kRounds = 25;
-
-pin::SE3 ToPinocchio(const Pose& X) { return {X.R, X.p}; }
-
-pin::Inertia ToPinocchio(const Inertia& M) {
-  return {M.mass, M.p_BoG_B, pin::Symmetric3(M.I_G_B)};
-}
-
-// Adds a joint, of a type of its own where the axis is one of the frame's: that
-// is what Pinocchio's parser of URDF files does.
-pin::JointIndex AddJoint(const Joint& joint, pin::JointIndex parent,
-                         pin::Model* model) {
-  const auto add = [&](const auto& type) {
-    return model->addJoint(parent, type, ToPinocchio(joint.X_PF), joint.name);
-  };
-  const Eigen::Vector3d& axis = joint.axis_F;
-  const int along = axis == Eigen::Vector3d::UnitX()   ? 0
-                    : axis == Eigen::Vector3d::UnitY() ? 1
-                    : axis == Eigen::Vector3d::UnitZ() ? 2
-                                                       : 3;
-  if (joint.type == JointType::kPrismatic) {
-    return along == 0   ? add(pin::JointModelPX())
-           : along == 1 ? add(pin::JointModelPY())
-           : along == 2 ? add(pin::JointModelPZ())
-                        : add(pin::JointModelPrismaticUnaligned(axis));
-  }
-  if (joint.type == JointType::kContinuous) {
-    return along == 0   ? add(pin::JointModelRUBX())
-           : along == 1 ? add(pin::JointModelRUBY())
-           : along == 2 ? add(pin::JointModelRUBZ())
-                        : add(pin::JointModelRevoluteUnboundedUnaligned(axis));
-  }
-  return along == 0   ? add(pin::JointModelRX())
-         : along == 1 ? add(pin::JointModelRY())
-         : along == 2 ? add(pin::JointModelRZ())
-                      : add(pin::JointModelRevoluteUnaligned(axis));
-}
-
-pin::Model MakeModel(const Tree& tree, const std::vector<int>& feet) {
-  pin::Model model;
-  std::vector<pin::JointIndex> of_body = {0};
-  if (tree.is_floating()) {
-    of_body[0] = model.addJoint(0, pin::JointModelFreeFlyer(),
-                                pin::SE3::Identity(), "base");
-  }
-  model.appendBodyToJoint(of_body[0], ToPinocchio(tree.inertias()[0]));
-  for (int j = 0; j < tree.num_joints(); ++j) {
-    const Joint& joint = tree.joints()[j];
-    of_body.push_back(AddJoint(joint, of_body[joint.parent], &model));
-    model.appendBodyToJoint(of_body.back(),
-                            ToPinocchio(tree.inertias()[j + 1]));
-    model.armature[tree.v_start() + j] = joint.armature;
-  }
-  for (const int foot : feet) {
-    const Frame& frame = tree.frames()[foot];
-    model.addFrame(pin::Frame(frame.name + " foot", of_body[frame.body],
-                              ToPinocchio(frame.X_BF), pin::OP_FRAME));
-  }
-  model.gravity.linear(tree.gravity_W());
-  return model;
-}
 
 // Returns the soles of our humanoid, or the last frame twice.
 std::vector<int> FindFeet(const Tree& tree) {
@@ -142,13 +82,6 @@ std::pair<std::vector<State>, std::vector<State>> MakeStates(const Tree& tree) {
     states.second.push_back(std::move(theirs));
   }
   return states;
-}
-
-double ThreadTime() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) +
-         1e-3 * static_cast<double>(now.tv_nsec);
 }
 
 using Call = std::function<void(const State&)>;
@@ -374,7 +307,12 @@ Function Derivatives(const Tree& tree, const pin::Model& model, Workspace* w) {
 void MeasureAll(const std::string& path) {
   const Tree tree = ReadTree(path);
   const std::vector<int> feet = FindFeet(tree);
-  const pin::Model model = MakeModel(tree, feet);
+  std::vector<Frame> frames;
+  for (const int foot : feet) {
+    frames.push_back(tree.frames()[foot]);
+    frames.back().name += " foot";
+  }
+  const pin::Model model = MakePinocchioModel(tree, frames);
   Workspace workspace(tree, model, feet);
   const auto [ours, theirs] = MakeStates(tree);
   for (const auto make :

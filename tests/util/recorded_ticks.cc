@@ -24,10 +24,9 @@ Scenario MakePush(const RecordingConditions& conditions) {
   return scenario;
 }
 
-}  // namespace
-
-void VisitTicks(const RecordingConditions& conditions,
-                const std::function<void(const Controller&)>& visit) {
+// As VisitTicks(), with the closed loop.
+void VisitLoop(const RecordingConditions& conditions,
+               const std::function<void(const ClosedLoop&)>& visit) {
   const bool is_push = !conditions.scenario;
   ClosedLoop loop(conditions.robot ? *conditions.robot : LoadHumanoid(),
                   is_push ? MakePush(conditions) : *conditions.scenario);
@@ -37,8 +36,16 @@ void VisitTicks(const RecordingConditions& conditions,
                                                    conditions.torque_scale);
     }
     loop.Tick();
-    if (loop.time() > conditions.begin) visit(loop.controller());
+    if (loop.time() > conditions.begin) visit(loop);
   }
+}
+
+}  // namespace
+
+void VisitTicks(const RecordingConditions& conditions,
+                const std::function<void(const Controller&)>& visit) {
+  VisitLoop(conditions,
+            [&](const ClosedLoop& loop) { visit(loop.controller()); });
 }
 
 RecordedTicks RecordTicks(const RecordingConditions& conditions) {
@@ -50,6 +57,15 @@ RecordedTicks RecordTicks(const RecordingConditions& conditions) {
     recorded.ticks.push_back(controller.hierarchy());
   });
   return recorded;
+}
+
+std::vector<State> RecordStates(const RecordingConditions& conditions) {
+  std::vector<State> states;
+  VisitLoop(conditions, [&](const ClosedLoop& loop) {
+    const PlantState& start = loop.record().start;
+    states.push_back({start.time, start.q, start.v});
+  });
+  return states;
 }
 
 }  // namespace poise

@@ -7,6 +7,7 @@
 
 #include "poise/hqp/hierarchy.h"
 #include "poise/robot/control/controller.h"
+#include "poise/robot/control/measurement.h"
 #include "poise/robot/robot.h"
 #include "poise/sim/scenario.h"
 
@@ -43,5 +44,9 @@ void VisitTicks(const RecordingConditions& conditions,
 
 /// Runs the robot as VisitTicks() and returns the controller's hierarchies.
 RecordedTicks RecordTicks(const RecordingConditions& conditions);
+
+/// Runs the robot as VisitTicks() and returns its state at the start of each
+/// tick. Without errors of the sensors, the controller receives this state.
+std::vector<State> RecordStates(const RecordingConditions& conditions);
 
 }  // namespace poise
