@@ -71,25 +71,90 @@ TEST(RowSums, AreThoseOfWholeRows) {
   }
 }
 
+struct LongSums {
+  long double product = 0, size = 0;
+};
+
+LongSums SumPrecisely(const std::vector<double>& row,
+                      const std::vector<double>& y) {
+  LongSums sums;
+  for (size_t j = 0; j < row.size(); ++j) {
+    const long double term = static_cast<long double>(row[j]) * y[j];
+    sums.product += term;
+    sums.size += std::abs(term);
+  }
+  return sums;
+}
+
 // Random numbers with all their digits, compared with sums in long double.
 TEST(RowSums, RoundAsMuchAsStatedAtMost) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   for (int n = 0; n < 200; ++n) {
     std::vector<double> row(n), y(n);
-    long double product = 0, size = 0;
     for (int j = 0; j < n; ++j) {
       row[j] = normal(random);
       y[j] = normal(random);
-      const long double term = static_cast<long double>(row[j]) * y[j];
-      product += term;
-      size += std::abs(term);
     }
+    const LongSums exact = SumPrecisely(row, y);
+    const long double rounding = RowSumRounding(n) * exact.size;
     const RowSums sums = SumRow(row.data(), {0, n}, y.data());
-    EXPECT_LE(std::abs(sums.product - product), RowSumRounding(n) * size) << n;
-    EXPECT_LE(std::abs(sums.product_size - size), RowSumRounding(n) * size)
-        << n;
+    EXPECT_LE(std::abs(sums.product - exact.product), rounding) << n;
+    EXPECT_LE(std::abs(sums.product_size - exact.size), rounding) << n;
   }
+}
+
+// Terms that nearly all sums round down. Each of the four lanes begins with a term near
+// `sign`, which is 1 for lanes 0 and 2. All other terms are positive and just below half
+// of the last digit of the sum to which they are added, so that the sum loses them.
+struct LosingTerms {
+  LosingTerms(int n, double sign) : row(n, 0.499 * kEps), y(n, 1) {
+    // This product is 1 + 2^-26 + 2^-27 - 2^-40 and nearly half of a digit more.
+    const double r = 1 + 0x1p-26 - 0x1p-40, at = 1 + 0x1p-27;
+    // The sum of lanes 0 and 2 ends in half of a digit, and so does that of all four.
+    const int digits[] = {0, 0, 1, 2};
+    for (int lane = 0; lane < 4; ++lane) {
+      row[lane] = r + digits[lane] * kEps;
+      y[lane] = lane % 2 == 0 ? at : sign * at;
+    }
+    // The sum of the lanes is 4.
+    for (int j = n - n % 4; j < n; ++j) row[j] *= 4;
+  }
+
+  static constexpr double kEps = std::numeric_limits<double>::epsilon();
+  std::vector<double> row, y;
+};
+
+// With 7 columns and one more addition, RowSumRounding() counts 9 roundings of all terms.
+// These terms have 6.5: products 1, sums of lanes 1.5, later columns 3, addition 1. With
+// more columns, the part is larger.
+TEST(RowSums, RoundNearlyAsMuchAsStated) {
+  for (const int n : {7, 43, 403}) {
+    SCOPED_TRACE(n);
+    const LosingTerms terms(n, 1);
+    const LongSums exact = SumPrecisely(terms.row, terms.y);
+    const RowSums sums = SumRow(terms.row.data(), {0, n}, terms.y.data());
+    const double added = 0.499 * 4 * LosingTerms::kEps;
+    const long double size = exact.size + added;
+    const long double error = exact.product + added - (sums.product + added);
+    EXPECT_LE(error, RowSumRounding(n) * size);
+    EXPECT_GE(error, 0.7 * RowSumRounding(n) * size);
+    EXPECT_EQ(sums.product_size, sums.product);
+  }
+}
+
+// Lanes 0 and 2 cancel lanes 1 and 3, so that the product is wrong by its whole value. The
+// rounding is that of the lanes, 99 of the stated 108.
+TEST(RowSums, RoundNearlyAsMuchAsStatedIfTheyCancel) {
+  const int n = 400;
+  const LosingTerms terms(n, -1);
+  const LongSums exact = SumPrecisely(terms.row, terms.y);
+  const RowSums sums = SumRow(terms.row.data(), {0, n}, terms.y.data());
+  const long double error = exact.product - sums.product;
+  // The two digits of `digits` that do not cancel.
+  EXPECT_LE(std::abs(sums.product), 2 * LosingTerms::kEps);
+  EXPECT_LE(error, RowSumRounding(n) * exact.size);
+  EXPECT_GE(error, 0.9 * RowSumRounding(n) * exact.size);
 }
 
 TEST(RowSums, AddRowsWithASize) {
