@@ -253,6 +253,49 @@ TEST(GapByHand, CoversALevelAboveThatCostsLessThanItsOptimum) {
             (std::pow(off - targets[2], 2) - std::pow(targets[2], 2)) / 2);
 }
 
+// Level 0 sets all variables but the last one, x = 0, to 1. Level 1 has the rows -e x <= 0
+// and c y + e x <= u. The sum c y in double loses `lost`, so that the second row is inside
+// its bound by 3/4 of this, while it exceeds its bound by 1/4 in exact arithmetic. At the
+// optimum of level 1, both rows have half of this slack. Level 2 has the target x = -1 and
+// the multiplier 1 / e on the first row.
+TEST(GapByHand, CoversASlackThatRoundingHides) {
+  const int fixed = 400;
+  const double e = 0x1p-24;
+  const std::vector<LevelCapacity> capacity{{fixed, 0}, {0, 2}, {1, 0}};
+  Hierarchy hierarchy(fixed + 1, capacity);
+  hierarchy.Clear(3);
+  EqualityBlock fix = hierarchy.AddEqualities(0, fixed);
+  InequalityBlock bounds = hierarchy.AddInequalities(1, 2);
+  for (int j = 0; j < fixed; ++j) fix.SetSingle(j, j, 1);
+  fix.b.setConstant(-1);
+  // Each of the four sums of RowSums begins with 1.001 or -1.001, and all further terms
+  // are less than half of its last digit.
+  const double small = 0.499 * std::numeric_limits<double>::epsilon();
+  const double lost = (fixed - 4) * small;
+  bounds.C.row(1).setConstant(small);
+  bounds.C.row(1).head(4) << 1.001, -1.001, 1.001, -1.001;
+  bounds.C(0, fixed) = -e;
+  bounds.C(1, fixed) = e;
+  bounds.upper << 0, 0.75 * lost;
+  EqualityBlock target = hierarchy.AddEqualities(2, 1);
+  target.SetSingle(0, fixed, 1);
+  target.b << 1;
+  hierarchy.FindSpans();
+  Solution solution(fixed + 1, capacity);
+  solution.y.setOnes();
+  solution.y[fixed] = 0;
+  for (int level = 0; level < 3; ++level) {
+    EvaluateLevel(hierarchy, level, &solution);
+  }
+  solution.levels[2].multipliers[1].inequality << 1 / e, 0;
+  Certifier certifier(fixed + 1, capacity);
+  EXPECT_LE(certifier.Certify(hierarchy, solution).worst(),
+            Certifier::kCertified);
+  ASSERT_EQ(solution.levels[1].cost, 0);
+  const double move = 0.25 * lost / (2 * e);
+  EXPECT_GE(certifier.gap(2), move - move * move / 2);
+}
+
 // Multipliers of 1e12 cancel. In double, the rounding of their sum would be 6 eps times
 // 2e12 and a radius of 8, 0.02, and that of the level above, which is met, 0.004.
 TEST(GapByHand, IsSharpForLargeMultipliersThatCancel) {
