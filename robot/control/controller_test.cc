@@ -254,6 +254,47 @@ TEST_F(ControllerTest, ReportsTheGapOfEachPriorityLevel) {
   EXPECT_TRUE(std::isnan(gap[6]));  // The solver did not run.
 }
 
+// Reports a solution whose gaps are 1, 2, ... on the levels of the hierarchy of the last
+// tick. Returns TickReport::gap, with 0 for NaN.
+std::vector<double> ReportGaps(const Controller& controller) {
+  const Stack& stack = controller.stack();
+  Solution solution(controller.hierarchy().num_variables(), stack.capacity());
+  for (size_t k = 0; k < solution.levels.size(); ++k) {
+    solution.levels[k].gap = static_cast<double>(k + 1);
+  }
+  TickReport report;
+  stack.Resize(&report);
+  stack.Report(solution, &report);
+  for (double& gap : report.gap) gap = std::isnan(gap) ? 0 : gap;
+  return report.gap;
+}
+
+// Two tasks share priority level 6, no task is on levels 4, 5 and 7.
+TEST_F(ControllerTest, ReportsGapsAtTheirPriorityLevels) {
+  using Gaps = std::vector<double>;
+  Stack& stack = controller_.stack();
+  ASSERT_TRUE(stack.SetLevel("momentum", 6));
+  ASSERT_TRUE(stack.SetLevel("posture", 6));
+  ASSERT_TRUE(stack.SetWeight("posture", 0.1));
+  ASSERT_TRUE(stack.SetLevel("force_regularizer", 8));
+  state_.v[3] = 0.1;
+  Update();
+  ASSERT_EQ(command_.status, TickStatus::kOk);
+  EXPECT_EQ(ReportGaps(controller_), (Gaps{1, 2, 3, 0, 0, 4, 0, 5}));
+  for (int i : {0, 1, 2, 5, 7}) {
+    EXPECT_TRUE(std::isfinite(controller_.report().gap[i])) << i;
+  }
+  ASSERT_TRUE(stack.set_weighted(true));
+  Update();
+  EXPECT_EQ(ReportGaps(controller_), (Gaps{1, 2, 0, 0, 0, 0, 0, 0}));
+  EXPECT_TRUE(std::isnan(controller_.report().gap[5]));
+  // Without rows on level 2, the weighted QP counts as level 3.
+  ASSERT_TRUE(stack.SetLevel("torque_limits", 3));
+  ASSERT_TRUE(stack.SetLevel("joint_limits", 3));
+  Update();
+  EXPECT_EQ(ReportGaps(controller_), (Gaps{1, 0, 2, 0, 0, 0, 0, 0}));
+}
+
 TEST_F(ControllerTest, MeetsDynamicsInWeightedQp) {
   ControllerOptions options;
   options.weighted = true;
