@@ -17,6 +17,11 @@ namespace {
 // little (docs/notebook/2026-11-27-paths.md).
 constexpr int kLongPath = 20;
 
+// How often a search without a limit of time removes many rows together, see
+// RemoveConstraints(). It ends cycles; from 2 to 10 the worst ticks hardly differ
+// (docs/notebook/2026-11-28-groups.md).
+constexpr int kMaxTogether = 4;
+
 }  // namespace
 
 ActiveSetSearch::ActiveSetSearch(int num_variables,
@@ -74,8 +79,11 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   const bool is_met =
       !budget->has_time_limit() ||
       path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side);
+  std::vector<double>& last_set_y =
+      step_;  // The optimum of the last working set.
   if (is_met) {
     problem->SolveDiagonal();
+    last_set_y = problem->y();
     // With a limit of time, a long path goes on in the next solve.
     const int longest = budget->has_time_limit()
                             ? limit
@@ -90,6 +98,7 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   }
   // A path need not lower the cost at each step.
   if (IsBetter(hierarchy, path_.y(), y_)) y_ = path_.y();
+  if (is_met && IsBetter(hierarchy, last_set_y, y_)) y_ = last_set_y;
   if (budget->is_spent()) return PathEnd::kBudget;
   path_.Resume(side);
   path_.Forget();
@@ -103,7 +112,8 @@ bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
                                         Budget* budget,
                                         WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
-  remove_together_ = true;
+  // With a limit of time, steps must be short.
+  num_together_ = budget->has_time_limit() ? 1 : kMaxTogether;
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
   // The leading levels come first, because their steps are cheaper. With a limit
   // of time, all of them but the last are searched alone before. If these need no
@@ -136,7 +146,7 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
                                   WorkingSetProblem* problem,
                                   std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
-  remove_together_ = false;
+  num_together_ = 0;
   std::fill(y_.begin(), y_.end(), 0);
   for (std::vector<Side>& level : completed_) {
     std::fill(level.begin(), level.end(), Side::kNone);
@@ -389,7 +399,7 @@ bool ActiveSetSearch::StepToBlockingConstraint(
 
 // Removes constraints with a negative multiplier from the working set: all that
 // are strictly inside their bound, or else the one with the most negative
-// multiplier. Once in a search, all whose multiplier comes from a diagonal
+// multiplier. The first times in a search, all whose multiplier comes from a diagonal
 // level are removed together, because a step there is expensive. Returns
 // whether a constraint was removed.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
@@ -411,7 +421,7 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
       multiplier = problem->Multiplier(a, l++, at, tolerances::kZeroMultiplier);
     if (multiplier >= 0) continue;
     if (l == row.level + 1 ||
-        (remove_together_ && l > problem->num_leading())) {
+        (num_together_ > 0 && l > problem->num_leading())) {
       at = Side::kNone;
       removals_.CountRemoval(index);
       any = true;
@@ -420,7 +430,7 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
       worst = multiplier;
     }
   }
-  if (any) remove_together_ = false;
+  if (any) num_together_ = std::max(num_together_ - 1, 0);
   if (any || removed < 0) return any;
   const WorkingSetProblem::Row& row = problem->row(removed);
   last_removed_ = {row.level, row.index};

@@ -116,8 +116,9 @@ class ActiveSetSearch {
   ParametricSearch path_;
   std::vector<double> y_, step_, value_, slope_;
   RemovalLimits removals_;
-  bool goes_on_ = false;          ///< See Stop().
-  bool remove_together_ = false;  ///< See RemoveConstraints().
+  bool goes_on_ = false;  ///< See Stop().
+  int num_together_ =
+      0;  ///< Removals left that may be together, see RemoveConstraints().
   /// The row removed last, if it was removed alone.
   RowIndex last_removed_;
   std::vector<std::vector<Side>> violated_;  ///< kNone: not violated.

@@ -2,6 +2,7 @@
 #include "poise/hqp/fast/parametric_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,13 @@
 #include "poise/hqp/fast/tolerances.h"
 
 namespace poise {
+namespace {
+
+// Most rows that are added ahead in one iteration. Of 2, 3, 4 and 6, none is best for all
+// recorded sequences (docs/notebook/2026-11-28-groups.md).
+constexpr int kMaxAhead = 3;
+
+}  // namespace
 
 ParametricSearch::ParametricSearch(int num_variables,
                                    const std::vector<LevelCapacity>& capacity)
@@ -69,33 +77,53 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
   // starts over.
   removals_.Reset(hierarchy);
   skips_near_ = false;
-  const int num_levels = problem->num_levels(), size = num_levels + 1;
+  // With a limit of time, an iteration changes one row, because the time is only checked
+  // between two iterations, and many changes can take long.
+  const bool changes_many = !budget->has_time_limit();
+  bool looks_ahead = changes_many, has_added_ahead = false;
   TakeWorkingSet(*side);
   for (Change last;;) {
+    const int size = problem->num_levels() + 1;
     problem->FindMultipliers(size);
-    const Blocking blocking =
-        FindBlocking(hierarchy, *problem, num_levels, last, *side);
-    const RowIndex removed = FindRemoval(*problem, size, last, *side);
-    if (blocking.side == Side::kNone && removed.level < 0) {
+    if (changes_many && RemoveVanished(*problem, size, last, side)) {
+      // One wrong guess is followed by others.
+      looks_ahead = looks_ahead && !has_added_ahead;
+      last = {};
+    } else if (!Step(hierarchy, *problem, &last, side)) {
       y_ = problem->y();
       return true;
     }
-    std::fill(time_.begin(), time_.end(), 0);
-    time_[0] = blocking.time;
-    const bool removes =
-        removed.level >= 0 &&
-        (blocking.side == Side::kNone ||
-         !infinitesimals::IsLess(time_.data(), removal_time_.data(), size));
-    if (removes) time_ = removal_time_;
-    Advance(*problem, size, *side);
-    if (removes) start_.Remove(removed.level, removed.row);
-    last = removes ? Remove(removed, side) : Add(blocking, side);
     if (!budget->Take(limit, problem->work())) {
       side_ = *side;
       return false;
     }
+    has_added_ahead = looks_ahead && last.added.level >= 0 &&
+                      AddAhead(hierarchy, *problem, last, side);
     problem->Solve(hierarchy, *side);
   }
+}
+
+// Moves y and the multipliers to the next change of the working set, and makes this
+// change. Returns false without a change if there is none before the end of the path.
+bool ParametricSearch::Step(const Hierarchy& hierarchy,
+                            const WorkingSetProblem& problem, Change* last,
+                            Sides* side) {
+  const int size = problem.num_levels() + 1;
+  const Blocking blocking =
+      FindBlocking(hierarchy, problem, problem.num_levels(), *last, *side);
+  const RowIndex removed = FindRemoval(problem, size, *last, *side);
+  if (blocking.side == Side::kNone && removed.level < 0) return false;
+  std::fill(time_.begin(), time_.end(), 0);
+  time_[0] = blocking.time;
+  const bool removes =
+      removed.level >= 0 &&
+      (blocking.side == Side::kNone ||
+       !infinitesimals::IsLess(time_.data(), removal_time_.data(), size));
+  if (removes) time_ = removal_time_;
+  Advance(problem, size, *side);
+  if (removes) start_.Remove(removed.level, removed.row);
+  *last = removes ? Remove(removed, side) : Add(blocking, side);
+  return true;
 }
 
 bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
@@ -167,53 +195,123 @@ bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
   return any;
 }
 
+// Removes all rows whose multiplier is zero at the time that has been reached and
+// negative at the end of the path. Returns whether there was one.
+bool ParametricSearch::RemoveVanished(const WorkingSetProblem& problem,
+                                      int size, const Change& last,
+                                      Sides* side) {
+  bool any = false;
+  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+    const RowIndex row = {problem.row(a).level, problem.row(a).index};
+    if (!problem.row(a).is_inequality ||
+        infinitesimals::Sign(start_.At(row.level, row.row), size) > 0 ||
+        !MayRemove(problem, size, last, *side, a)) {
+      continue;
+    }
+    start_.Remove(row.level, row.row);
+    (void)Remove(row, side);
+    any = true;
+  }
+  return any;
+}
+
+// Returns the largest rounding of a step to the end of the path.
+double ParametricSearch::Noise(const WorkingSetProblem& problem) const {
+  double largest = 0;
+  for (int j = 0; j < n_; ++j) {
+    largest = std::max(largest, std::abs(problem.y()[j] - y_[j]));
+  }
+  return tolerances::kZeroSlope * largest +
+         tolerances::kSolutionRounding *
+             (kernels::Largest(y_.data(), n_) + problem.Size());
+}
+
+// Returns whether and when a row outside the working set blocks the path, at whose end
+// it has the value `end_value`, outside its bounds.
+ParametricSearch::Blocking ParametricSearch::JudgeRow(
+    const Hierarchy& hierarchy, const WorkingSetProblem& problem, RowIndex row,
+    double end_value, double noise, const Change& last) const {
+  const double upper = hierarchy.upper(row.level)[row.row];
+  const double lower = hierarchy.lower(row.level)[row.row];
+  const bool is_above = end_value > upper;
+  const Side at = is_above ? Side::kUpper : Side::kLower;
+  const double bound = is_above ? upper : lower;
+  const double beyond = is_above ? end_value - bound : bound - end_value;
+  const double norm = problem.norm(row.level, row.row);
+  if (!removals_.MayChange(row) || norm == 0 ||
+      (row == last.removed && at == last.removed_side) ||
+      beyond <= noise * norm + tolerances::kZeroSlope * std::abs(bound)) {
+    return {};
+  }
+  double value;
+  kernels::SpanDots(hierarchy.C(row.level).data() + row.row * n_, n_,
+                    hierarchy.C_span(row.level) + row.row, 1, y_.data(),
+                    &value);
+  const double left = is_above ? bound - value : value - bound;
+  return {row, at, left > 0 ? left / (left + beyond) : 0, beyond / norm};
+}
+
 // Finds the first blocking constraint outside the working set. A bound that y violates
 // at the start and at the end of the path blocks at once. Among bounds at equal time,
 // the end violates the returned one most.
 ParametricSearch::Blocking ParametricSearch::FindBlocking(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     int num_levels, const Change& last, const Sides& side) {
-  const std::vector<double>& end = problem.y();
-  double largest = 0;
-  for (int j = 0; j < n_; ++j) {
-    largest = std::max(largest, std::abs(end[j] - y_[j]));
-  }
-  const double noise = tolerances::kZeroSlope * largest +
-                       tolerances::kSolutionRounding *
-                           (kernels::Largest(y_.data(), n_) + problem.Size());
+  const double noise = Noise(problem);
   Blocking first;
-  double most = 0;
   for (int level = 0; level < num_levels; ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     const int rows = hierarchy.num_inequalities(level);
-    const double* C = hierarchy.C(level).data();
-    const Span* spans = hierarchy.C_span(level);
-    kernels::SpanDots(C, n_, spans, rows, end.data(), end_value_.data());
+    kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
+                      rows, problem.y().data(), end_value_.data());
     for (int i = 0; i < rows; ++i) {
-      const double above = end_value_[i] - upper[i];
-      const double below = lower[i] - end_value_[i];
-      const double beyond = std::max(above, below);
-      if (beyond <= 0 || side[level][i] != Side::kNone) continue;
-      const Side at = above > 0 ? Side::kUpper : Side::kLower;
-      const double bound = above > 0 ? upper[i] : lower[i];
-      const double norm = problem.norm(level, i);
-      const RowIndex row = {level, i};
-      if (!removals_.MayChange(row) || norm == 0 ||
-          (row == last.removed && at == last.removed_side) ||
-          beyond <= noise * norm + tolerances::kZeroSlope * std::abs(bound)) {
+      const double value = end_value_[i];
+      if ((value <= upper[i] && value >= lower[i]) ||
+          side[level][i] != Side::kNone) {
         continue;
       }
-      double value;
-      kernels::SpanDots(C + i * n_, n_, spans + i, 1, y_.data(), &value);
-      const double left = above > 0 ? bound - value : value - bound;
-      const double time = left > 0 ? left / (left + beyond) : 0;
-      if (time < first.time || (time == first.time && beyond / norm > most)) {
-        first = {row, at, time};
-        most = beyond / norm;
+      const Blocking row =
+          JudgeRow(hierarchy, problem, {level, i}, value, noise, last);
+      if (row.side != Side::kNone &&
+          (row.time < first.time ||
+           (row.time == first.time && row.excess > first.excess))) {
+        first = row;
       }
     }
   }
   return first;
+}
+
+// Adds those rows of one variable that block next, up to kMaxAhead, but none that has
+// been removed on this path. Returns whether there was one. Such rows are independent of
+// each other, and many are added in a row when a robot reaches its limits.
+bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
+                                const WorkingSetProblem& problem,
+                                const Change& last, Sides* side) {
+  const double noise = Noise(problem);
+  std::array<Blocking, kMaxAhead> next;  // In the order of their times.
+  for (int level = 0; level < problem.num_levels(); ++level) {
+    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      const Span span = hierarchy.C_span(level)[i];
+      if (span.size != 1 || (*side)[level][i] != Side::kNone) continue;
+      const double value =
+          hierarchy.C(level)(i, span.first) * problem.y()[span.first];
+      if ((value <= upper[i] && value >= lower[i]) ||
+          !removals_.IsUnused({level, i})) {
+        continue;
+      }
+      Blocking row =
+          JudgeRow(hierarchy, problem, {level, i}, value, noise, last);
+      for (Blocking& earlier : next) {
+        if (row.time < earlier.time) std::swap(row, earlier);
+      }
+    }
+  }
+  for (const Blocking& row : next) {
+    if (row.side != Side::kNone) (void)Add(row, side);
+  }
+  return next[0].side != Side::kNone;
 }
 
 // Finds the row whose multiplier becomes negative first, and the time at which this

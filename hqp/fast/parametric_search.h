@@ -24,6 +24,11 @@ namespace poise {
 /// becomes negative. The multipliers of a row on all levels are one number, see
 /// infinitesimals.h. If the optimum changes little, so does the working set.
 ///
+/// Any working set whose multipliers are not negative can be the start of the rest of a
+/// path: the shift of its data is whatever makes it optimal. So rows whose multiplier is
+/// zero can be removed together, and rows can be added before y reaches their bound.
+/// Without a limit of time, both make a path shorter.
+///
 /// Nothing allocates after construction.
 class ParametricSearch {
  public:
@@ -84,6 +89,8 @@ class ParametricSearch {
     RowIndex row;
     Side side = Side::kNone;  ///< kNone: no row blocks.
     double time = 1;
+    double excess =
+        0;  ///< Violation at the end of the path, relative to the row.
   };
   /// The last change of the working set.
   struct Change {
@@ -97,9 +104,19 @@ class ParametricSearch {
                    WorkingSetProblem* problem, Sides* side);
   bool RemoveNegative(const WorkingSetProblem& problem, int size,
                       const Change& last, Sides* side);
+  bool RemoveVanished(const WorkingSetProblem& problem, int size,
+                      const Change& last, Sides* side);
+  bool Step(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+            Change* last, Sides* side);
+  double Noise(const WorkingSetProblem& problem) const;
+  Blocking JudgeRow(const Hierarchy& hierarchy,
+                    const WorkingSetProblem& problem, RowIndex row,
+                    double end_value, double noise, const Change& last) const;
   Blocking FindBlocking(const Hierarchy& hierarchy,
                         const WorkingSetProblem& problem, int num_levels,
                         const Change& last, const Sides& side);
+  bool AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                const Change& last, Sides* side);
   RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
                        const Change& last, const Sides& side);
   bool MayRemove(const WorkingSetProblem& problem, int size, const Change& last,

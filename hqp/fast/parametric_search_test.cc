@@ -61,9 +61,15 @@ class Search {
     Start(hierarchy);
     return FollowFromHere(hierarchy, limit);
   }
+  // Follow() with a limit of time that is not reached.
+  bool FollowWithATimeLimit(const Hierarchy& hierarchy) {
+    Start(hierarchy);
+    return FollowFromHere(hierarchy, kEnough, 1e3);
+  }
   // Follows the path if the leading levels are solved already.
-  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough) {
-    Budget budget({limit}, &no_clock_);
+  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough,
+                      double seconds = 0) {
+    Budget budget({limit, seconds}, &no_clock_);
     problem_.SolveDiagonal();
     const CountMalloc count;
     const bool is_optimal =
@@ -201,6 +207,104 @@ TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
   EXPECT_EQ(search_.iterations(), 0);
   EXPECT_NEAR(search_.y()[0], 1, kTolerance);
   EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
+}
+
+// Boxes y_j <= 1 around independent variables. The targets move from 0 and reach the
+// bounds one after the other.
+class ParametricSearchBoxesTest : public testing::Test {
+ protected:
+  static constexpr int kVariables = 6;
+
+  Hierarchy At(const Eigen::VectorXd& target) const {
+    Hierarchy hierarchy(kVariables, capacity_);
+    InequalityBlock bounds = hierarchy.AddInequalities(0, kVariables);
+    bounds.C.setIdentity();
+    bounds.lower.setConstant(-kInfinity);
+    bounds.upper.setOnes();
+    EqualityBlock task = hierarchy.AddEqualities(1, kVariables);
+    task.B.setIdentity();
+    task.b = -target;
+    // With an inequality, the level is a leading one.
+    InequalityBlock loose = hierarchy.AddInequalities(1, 1);
+    loose.C.setOnes();
+    loose.lower.setConstant(-kInfinity);
+    loose.upper.setConstant(kInfinity);
+    return hierarchy;
+  }
+  Hierarchy Start() const { return At(Eigen::VectorXd::Zero(kVariables)); }
+  int NumActive() {
+    const std::vector<Side>& side = search_.side()[0];
+    return static_cast<int>(std::count(side.begin(), side.end(), Side::kUpper));
+  }
+
+  const std::vector<LevelCapacity> capacity_{{0, kVariables}, {kVariables, 1}};
+  Search search_{kVariables, capacity_};
+};
+
+// Six bounds are reached. One iteration adds more than one of them, those that are
+// reached first; the path itself stops at the first one.
+TEST_F(ParametricSearchBoxesTest, AddsRowsAheadInTheOrderOfTheirTimes) {
+  search_.Begin(Start());
+  Eigen::VectorXd target(kVariables);
+  target << 7, 6, 5, 4, 3, 2;
+  const Hierarchy end = At(target);
+  ASSERT_FALSE(search_.Follow(end, 1));
+  EXPECT_GT(NumActive(), 2);
+  EXPECT_LT(NumActive(), kVariables);
+  EXPECT_TRUE(std::is_sorted(
+      search_.side()[0].begin(), search_.side()[0].end(),
+      [](Side x, Side y) { return x == Side::kUpper && y == Side::kNone; }));
+  ASSERT_TRUE(search_.FollowFromHere(end));
+  EXPECT_EQ(NumActive(), kVariables);
+  EXPECT_LT(search_.iterations(), kVariables - 1);
+  EXPECT_NEAR((search_.y() - Eigen::VectorXd::Ones(kVariables)).norm(), 0,
+              kTolerance);
+}
+
+// A limit of time is only checked between two iterations, so that each adds one row.
+TEST_F(ParametricSearchBoxesTest, AddsOneRowAtATimeWithALimitOfTime) {
+  search_.Begin(Start());
+  ASSERT_TRUE(search_.FollowWithATimeLimit(
+      At(Eigen::VectorXd::LinSpaced(kVariables, 2, 7))));
+  EXPECT_EQ(search_.iterations(), kVariables);
+}
+
+// Six rows with the multiplier 0 are removed in one iteration: nothing moves before.
+TEST_F(ParametricSearchBoxesTest, RemovesRowsTogetherWhoseMultiplierIsZero) {
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(kVariables);
+  search_.Begin(At(ones));
+  std::fill(search_.side()[0].begin(), search_.side()[0].end(), Side::kUpper);
+  ASSERT_TRUE(search_.Follow(At(-ones)));
+  EXPECT_EQ(NumActive(), 0);
+  EXPECT_EQ(search_.iterations(), 1);
+  EXPECT_NEAR((search_.y() + ones).norm(), 0, kTolerance);
+}
+
+// y_1 follows y_0, with y_0 <= 1 and y_1 <= 1.5. The target of y_0 moves from 0 to 2, and
+// y_1 would reach its bound if y_0 did not stop before. So this bound is added ahead, and
+// must be removed again.
+TEST(ParametricSearch, RemovesARowThatWasAddedAhead) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
+  const auto at = [&](double target) {
+    Hierarchy hierarchy(2, capacity);
+    InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+    bounds.C.setIdentity();
+    bounds.lower.setConstant(-kInfinity);
+    bounds.upper << 1, 1.5;
+    EqualityBlock task = hierarchy.AddEqualities(1, 2);
+    task.B << 1, 0, -1, 1;
+    task.b << -target, 0;
+    return hierarchy;
+  };
+  Search search(2, capacity);
+  search.Begin(at(0));
+  const Hierarchy end = at(2);
+  ASSERT_FALSE(search.Follow(end, 1));
+  EXPECT_EQ(search.side()[0][1], Side::kUpper);
+  ASSERT_TRUE(search.FollowFromHere(end));
+  EXPECT_EQ(search.side()[0][0], Side::kUpper);
+  EXPECT_EQ(search.side()[0][1], Side::kNone);
+  EXPECT_NEAR((search.y() - Eigen::Vector2d(1, 1)).norm(), 0, kTolerance);
 }
 
 // The bound on y_0 is removed from the working set, and the path is paused. On the rest

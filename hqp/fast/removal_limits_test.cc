@@ -48,6 +48,8 @@ TEST(RemovalLimits, AgreeWithAMap) {
     const bool is_frozen = left.count(key) == 0;
     ASSERT_EQ(limits.IsFrozen(row), is_frozen);
     ASSERT_EQ(limits.MayChange(row), !is_frozen && left.at(key) > 0);
+    ASSERT_EQ(limits.IsUnused(row),
+              !is_frozen && left.at(key) == RemovalLimits::kMaxRemovals);
     const auto call = draw() % 200;
     if (call < 2) {
       limits.Reset(hierarchy, row.level);
