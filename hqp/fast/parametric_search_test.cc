@@ -118,12 +118,13 @@ class Search {
 // 1. Its rows are not unit vectors, so that the level is a leading one.
 class ParametricSearchTest : public testing::Test {
  protected:
-  Hierarchy At(double target_0, double target_1, double bound_0 = 1) const {
+  Hierarchy At(double target_0, double target_1, double bound_0 = 1,
+               double bound_1 = 1) const {
     Hierarchy hierarchy(2, capacity_);
     InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
     bounds.C.setIdentity();
     bounds.lower.setConstant(-kInfinity);
-    bounds.upper << bound_0, 1;
+    bounds.upper << bound_0, bound_1;
     EqualityBlock task = hierarchy.AddEqualities(1, 2);
     task.B << 1, 1, 1, -1;
     task.b << -target_0 - target_1, target_1 - target_0;
@@ -182,16 +183,15 @@ TEST_F(ParametricSearchTest, RemovesTheRowWhoseMultiplierVanishesFirst) {
   }
 }
 
-// Both bounds are reached at half of the path. The end violates the bound on y_0 by 0.5 or
-// 2, and that on y_1 by 1.
+// The bounds become 0, so that y = (0.5, 0.5) violates both from the start. The end
+// violates one of them by 2 and the other one by 1.
 TEST_F(ParametricSearchTest, AddsTheMoreViolatedOfTwoRowsThatBlockAtOnce) {
-  for (const double bound : {0.5, 2.0}) {
+  for (const int most : {0, 1}) {
     Search search(2, capacity_);
-    search.Begin(At(0, 0, bound));
-    EXPECT_FALSE(search.Follow(At(2 * bound, 2, bound), 0));
-    const int added = bound > 1 ? 0 : 1;
-    EXPECT_EQ(search.side()[0][added], Side::kUpper);
-    EXPECT_EQ(search.side()[0][1 - added], Side::kNone);
+    search.Begin(At(0.5, 0.5));
+    EXPECT_FALSE(search.Follow(At(2 - most, 1 + most, 0, 0), 0));
+    EXPECT_EQ(search.side()[0][most], Side::kUpper);
+    EXPECT_EQ(search.side()[0][1 - most], Side::kNone);
   }
 }
 
