@@ -56,18 +56,22 @@ TEST(SolverBudget, TakesNoMoreIterationsThanItsLimit) {
   }
 }
 
-// Returns whether the costs of an answer are, level by level, not above those
-// of another one; a lower cost permits higher ones below.
-bool IsNoWorse(const Hierarchy& hierarchy, const Solution& solution,
-               const Solution& than) {
-  for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    const double change = solution.levels[level].cost - than.levels[level].cost;
-    // Both answers are right to 1e-9 of their terms, as certificates are.
-    const double rounding = kCertified * (CostSize(hierarchy, level, solution) +
-                                          CostSize(hierarchy, level, than));
-    if (std::abs(change) > rounding) return change < 0;
+// Returns the first level that costs more at an answer than at another one, or -1 if a
+// level above costs less, or if no level costs more.
+int FirstWorseLevel(const Hierarchy& hierarchy, const Solution& solution,
+                    const Solution& than) {
+  for (int k = 0; k < hierarchy.num_levels(); ++k) {
+    const double change = solution.levels[k].cost - than.levels[k].cost;
+    const int terms = hierarchy.num_variables() + hierarchy.num_equalities(k) +
+                      hierarchy.num_inequalities(k);
+    const double size =
+        CostSize(hierarchy, k, solution) + CostSize(hierarchy, k, than);
+    // The other answer is right to about the condition number of its rows, 1e3, times
+    // the rounding of its sums.
+    if (std::abs(change) > Rounding(size, terms, 1e3))
+      return change > 0 ? k : -1;
   }
-  return true;
+  return -1;
 }
 
 // Numbers of iterations, and times [s]. The times allow 2 and 5 iterations beside the
@@ -94,12 +98,13 @@ int SolveInSteps(const Hierarchy& hierarchy, const Solution& optimum,
     status = solver->Solve(hierarchy, &now);
     EXPECT_EQ(count.allocations(), 0);
     EXPECT_LE(now.iterations, solver->max_iterations);
-    EXPECT_TRUE(!before || IsNoWorse(hierarchy, now, *before)) << solve;
+    EXPECT_TRUE(!before || FirstWorseLevel(hierarchy, now, *before) < 0)
+        << solve;
     before = now;
     stopped += status != Status::kOptimal;
   }
   EXPECT_EQ(status, Status::kOptimal);
-  EXPECT_TRUE(IsNoWorse(hierarchy, now, optimum));
+  EXPECT_LT(FirstWorseLevel(hierarchy, now, optimum), 0);
   return stopped;
 }
 
@@ -192,7 +197,7 @@ Stopped SolveWithLargerLimits(const HierarchyCase& drawn,
     EXPECT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
     solver.max_iterations = limit;
     status = solver.Solve(changed, &now);
-    stopped.worse += before && !IsNoWorse(changed, now, *before);
+    stopped.worse += before && FirstWorseLevel(changed, now, *before) >= 0;
     before = now;
     stopped.solves += status != Status::kOptimal;
   }
@@ -270,24 +275,6 @@ Solution AnswerOfWorkingSet(const HierarchyCase& now, const Solution& last) {
     EvaluateLevel(hierarchy, k, &answer);
   }
   return answer;
-}
-
-// Returns the first level that costs more at an answer than at another one, or -1 if a
-// level above costs less, or if no level costs more.
-int FirstWorseLevel(const Hierarchy& hierarchy, const Solution& solution,
-                    const Solution& than) {
-  for (int k = 0; k < hierarchy.num_levels(); ++k) {
-    const double change = solution.levels[k].cost - than.levels[k].cost;
-    const int terms = hierarchy.num_variables() + hierarchy.num_equalities(k) +
-                      hierarchy.num_inequalities(k);
-    const double size =
-        CostSize(hierarchy, k, solution) + CostSize(hierarchy, k, than);
-    // The other answer is right to about the condition number of its rows, 1e3, times
-    // the rounding of its sums.
-    if (std::abs(change) > Rounding(size, terms, 1e3))
-      return change > 0 ? k : -1;
-  }
-  return -1;
 }
 
 struct Judged {
@@ -394,7 +381,7 @@ TEST(SolverBudget, RecoversFromSolvesThatAreCutOff) {
       fresh.Forget();
       ASSERT_EQ(fresh.Solve(drawn.hierarchy, &expected), Status::kOptimal);
       EXPECT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
-      EXPECT_TRUE(IsNoWorse(drawn.hierarchy, now, expected));
+      EXPECT_LT(FirstWorseLevel(drawn.hierarchy, now, expected), 0);
       // With two iterations a path is cut off, and then forgotten.
       ChangeHierarchy(seed + 100, &drawn);
       solver.max_iterations = 2;
