@@ -13,12 +13,12 @@ namespace {
 
 // Longest path, in iterations. After more iterations, steps of the primal method are
 // likely to reach the optimum first: they need not follow each change of the working
-// set between the last optimum and this one. From 12 to 40, the worst ticks change
-// little (docs/notebook/2026-11-27-paths.md).
+// set between the last optimum and this one. No longer path is better for all
+// sequences (docs/notebook/2026-11-28-groups.md).
 constexpr int kLongPath = 20;
 
 // How often a search without a limit of time removes many rows together, see
-// RemoveConstraints(). It ends cycles; from 2 to 10 the worst ticks hardly differ
+// RemoveConstraints(). With 4 and 10 the worst ticks are the same
 // (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxTogether = 4;
 
@@ -29,6 +29,7 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
     : n_(num_variables),
       path_(num_variables, capacity),
       y_(num_variables),
+      set_optimum_(num_variables),
       step_(num_variables),
       removals_(capacity) {
   int most = 0;
@@ -79,11 +80,9 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   const bool is_met =
       !budget->has_time_limit() ||
       path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side);
-  std::vector<double>& last_set_y =
-      step_;  // The optimum of the last working set.
   if (is_met) {
     problem->SolveDiagonal();
-    last_set_y = problem->y();
+    set_optimum_ = problem->y();
     // With a limit of time, a long path goes on in the next solve.
     const int longest = budget->has_time_limit()
                             ? limit
@@ -98,7 +97,7 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   }
   // A path need not lower the cost at each step.
   if (IsBetter(hierarchy, path_.y(), y_)) y_ = path_.y();
-  if (is_met && IsBetter(hierarchy, last_set_y, y_)) y_ = last_set_y;
+  if (is_met && IsBetter(hierarchy, set_optimum_, y_)) y_ = set_optimum_;
   if (budget->is_spent()) return PathEnd::kBudget;
   path_.Resume(side);
   path_.Forget();
@@ -399,9 +398,9 @@ bool ActiveSetSearch::StepToBlockingConstraint(
 
 // Removes constraints with a negative multiplier from the working set: all that
 // are strictly inside their bound, or else the one with the most negative
-// multiplier. The first times in a search, all whose multiplier comes from a diagonal
-// level are removed together, because a step there is expensive. Returns
-// whether a constraint was removed.
+// multiplier. In the first such iterations of a search, num_together_ of them, all whose
+// multiplier comes from a diagonal level are removed as well, because a step there is
+// expensive. Returns whether a constraint was removed.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   int removed = -1;

@@ -114,11 +114,14 @@ class ActiveSetSearch {
 
   int n_;
   ParametricSearch path_;
-  std::vector<double> y_, step_, value_, slope_;
+  std::vector<double> y_;
+  /// Optimum of the working set with which the last solve began.
+  std::vector<double> set_optimum_;
+  std::vector<double> step_, value_, slope_;
   RemovalLimits removals_;
   bool goes_on_ = false;  ///< See Stop().
-  int num_together_ =
-      0;  ///< Removals left that may be together, see RemoveConstraints().
+  /// Iterations left that may remove rows together, see RemoveConstraints().
+  int num_together_ = 0;
   /// The row removed last, if it was removed alone.
   RowIndex last_removed_;
   std::vector<std::vector<Side>> violated_;  ///< kNone: not violated.

@@ -85,10 +85,9 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
   for (Change last;;) {
     const int size = problem->num_levels() + 1;
     problem->FindMultipliers(size);
-    if (changes_many && RemoveVanished(*problem, size, last, side)) {
+    if (changes_many && RemoveVanished(*problem, size, &last, side)) {
       // One wrong guess is followed by others.
       looks_ahead = looks_ahead && !has_added_ahead;
-      last = {};
     } else if (!Step(hierarchy, *problem, &last, side)) {
       y_ = problem->y();
       return true;
@@ -196,23 +195,28 @@ bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
 }
 
 // Removes all rows whose multiplier is zero at the time that has been reached and
-// negative at the end of the path. Returns whether there was one.
+// negative at the end of the path. Returns whether there was one. The row that was added
+// last stays protected from removal, and one that is removed alone from being added.
 bool ParametricSearch::RemoveVanished(const WorkingSetProblem& problem,
-                                      int size, const Change& last,
-                                      Sides* side) {
-  bool any = false;
+                                      int size, Change* last, Sides* side) {
+  int removed = 0;
+  Change change;
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     const RowIndex row = {problem.row(a).level, problem.row(a).index};
     if (!problem.row(a).is_inequality ||
         infinitesimals::Sign(start_.At(row.level, row.row), size) > 0 ||
-        !MayRemove(problem, size, last, *side, a)) {
+        !MayRemove(problem, size, *last, *side, a)) {
       continue;
     }
     start_.Remove(row.level, row.row);
-    (void)Remove(row, side);
-    any = true;
+    change = Remove(row, side);
+    ++removed;
   }
-  return any;
+  if (removed == 0) return false;
+  if (removed > 1) change = {};
+  change.added = last->added;
+  *last = change;
+  return true;
 }
 
 // Returns the largest rounding of a step to the end of the path.
@@ -226,9 +230,9 @@ double ParametricSearch::Noise(const WorkingSetProblem& problem) const {
              (kernels::Largest(y_.data(), n_) + problem.Size());
 }
 
-// Returns whether and when a row outside the working set blocks the path, at whose end
-// it has the value `end_value`, outside its bounds.
-ParametricSearch::Blocking ParametricSearch::JudgeRow(
+// Returns whether and when a row blocks the path, at whose end it has the value `end_value`.
+// pre: the row is not in the working set, and `end_value` is outside its bounds.
+ParametricSearch::Blocking ParametricSearch::FindTime(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem, RowIndex row,
     double end_value, double noise, const Change& last) const {
   const double upper = hierarchy.upper(row.level)[row.row];
@@ -271,7 +275,7 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
         continue;
       }
       const Blocking row =
-          JudgeRow(hierarchy, problem, {level, i}, value, noise, last);
+          FindTime(hierarchy, problem, {level, i}, value, noise, last);
       if (row.side != Side::kNone &&
           (row.time < first.time ||
            (row.time == first.time && row.excess > first.excess))) {
@@ -283,8 +287,9 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
 }
 
 // Adds those rows of one variable that block next, up to kMaxAhead, but none that has
-// been removed on this path. Returns whether there was one. Such rows are independent of
-// each other, and many are added in a row when a robot reaches its limits.
+// been removed on this path. Returns whether there was one. When a robot reaches its
+// limits, many such rows are added one after the other; most are independent of each
+// other, and a wrong one gets a negative multiplier and is removed.
 bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
                                 const WorkingSetProblem& problem,
                                 const Change& last, Sides* side) {
@@ -298,11 +303,11 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
       const double value =
           hierarchy.C(level)(i, span.first) * problem.y()[span.first];
       if ((value <= upper[i] && value >= lower[i]) ||
-          !removals_.IsUnused({level, i})) {
+          !removals_.HasAllRemovals({level, i})) {
         continue;
       }
       Blocking row =
-          JudgeRow(hierarchy, problem, {level, i}, value, noise, last);
+          FindTime(hierarchy, problem, {level, i}, value, noise, last);
       for (Blocking& earlier : next) {
         if (row.time < earlier.time) std::swap(row, earlier);
       }

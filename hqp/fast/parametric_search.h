@@ -24,10 +24,12 @@ namespace poise {
 /// becomes negative. The multipliers of a row on all levels are one number, see
 /// infinitesimals.h. If the optimum changes little, so does the working set.
 ///
-/// Any working set whose multipliers are not negative can be the start of the rest of a
-/// path: the shift of its data is whatever makes it optimal. So rows whose multiplier is
-/// zero can be removed together, and rows can be added before y reaches their bound.
-/// Without a limit of time, both make a path shorter.
+/// Any working set can start the rest of a path from y if its multipliers are not
+/// negative: the bounds of its rows are shifted to their values at y. So rows whose
+/// multiplier is zero can be removed together, and rows can be added, with the multiplier
+/// zero, before y reaches their bound. Without a limit of time, both make a path shorter.
+/// Where many rows block at the same time, only RemovalLimits and the limit of iterations
+/// exclude a cycle.
 ///
 /// Nothing allocates after construction.
 class ParametricSearch {
@@ -89,8 +91,8 @@ class ParametricSearch {
     RowIndex row;
     Side side = Side::kNone;  ///< kNone: no row blocks.
     double time = 1;
-    double excess =
-        0;  ///< Violation at the end of the path, relative to the row.
+    /// Violation at the end of the path, divided by the sum of absolute entries.
+    double excess = 0;
   };
   /// The last change of the working set.
   struct Change {
@@ -104,12 +106,12 @@ class ParametricSearch {
                    WorkingSetProblem* problem, Sides* side);
   bool RemoveNegative(const WorkingSetProblem& problem, int size,
                       const Change& last, Sides* side);
-  bool RemoveVanished(const WorkingSetProblem& problem, int size,
-                      const Change& last, Sides* side);
+  bool RemoveVanished(const WorkingSetProblem& problem, int size, Change* last,
+                      Sides* side);
   bool Step(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
             Change* last, Sides* side);
   double Noise(const WorkingSetProblem& problem) const;
-  Blocking JudgeRow(const Hierarchy& hierarchy,
+  Blocking FindTime(const Hierarchy& hierarchy,
                     const WorkingSetProblem& problem, RowIndex row,
                     double end_value, double noise, const Change& last) const;
   Blocking FindBlocking(const Hierarchy& hierarchy,

@@ -45,8 +45,8 @@ class RemovalLimits {
   }
 
   bool IsFrozen(RowIndex row) const { return At(row) == kFrozen; }
-  /// Returns whether the row is not frozen and has not been removed yet.
-  bool IsUnused(RowIndex row) const { return At(row) == kMaxRemovals; }
+  /// Returns whether the row is not frozen and has kMaxRemovals removals left.
+  bool HasAllRemovals(RowIndex row) const { return At(row) == kMaxRemovals; }
   /// Returns whether the row is not frozen and has removals left.
   bool MayChange(RowIndex row) const { return At(row) > 0; }
 

@@ -48,7 +48,7 @@ TEST(RemovalLimits, AgreeWithAMap) {
     const bool is_frozen = left.count(key) == 0;
     ASSERT_EQ(limits.IsFrozen(row), is_frozen);
     ASSERT_EQ(limits.MayChange(row), !is_frozen && left.at(key) > 0);
-    ASSERT_EQ(limits.IsUnused(row),
+    ASSERT_EQ(limits.HasAllRemovals(row),
               !is_frozen && left.at(key) == RemovalLimits::kMaxRemovals);
     const auto call = draw() % 200;
     if (call < 2) {

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-"""Compiles a program for each solver, all with the same flags.
+"""Compiles a program for each peer, all with the same flags.
 
 An object file is named by a digest of all that it depends on, so that it is
 compiled once.

@@ -337,11 +337,11 @@ class ControllersTest(unittest.TestCase):
 
     def test_rows_have_the_ratios_of_poise_to_the_peer(self):
         ticks = {"Poise": controlled((20, True, 1e-14), (90, True, 2e-14)),
-                 "TSID": controlled((80, True, 3e-13), (100, False, 7))}
+                 "TSID": controlled((80, True, 3e-13), (100, True, 7e-14))}
         rows = controllers.rows("a", ticks, has_goal=True)
         self.assertEqual(rows, [
             "| a | Poise | 20.0 | 90.0 | 90.0 | 0 | 2e-14 |  |  |  |  |",
-            "| a | TSID | 80.0 | 100.0 | 100.0 | 1 | 3e-13 | 0.250 | 0.900 "
+            "| a | TSID | 80.0 | 100.0 | 100.0 | 0 | 3e-13 | 0.250 | 0.900 "
             "| 0.900 | yes |"])
         self.assertEqual({line.count("|") for line in controllers.head()},
                          {row.count("|") for row in rows})
@@ -369,6 +369,14 @@ class ControllersTest(unittest.TestCase):
             ours = controllers.Figures(median, 999, worst, 0, 0)
             self.assertEqual(controllers.goal(ours, theirs), expected)
 
+    def test_goal_wants_all_ticks_solved_rightly(self):
+        good = controllers.Figures(1, 1, 1, 0, 0)
+        slow = controllers.Figures(100, 100, 200, 0, 0)
+        self.assertTrue(controllers.goal(good, slow))
+        self.assertFalse(controllers.goal(good._replace(not_solved=1), slow))
+        self.assertFalse(controllers.goal(good, slow._replace(not_solved=1)))
+        self.assertFalse(controllers.goal(good._replace(residual=1e-3), slow))
+
     def test_the_largest_residual_is_that_of_solved_ticks(self):
         ticks = {"Poise": controlled((1, True, 1e-14), (1, False, 5)),
                  "TSID": controlled((1, True, 2e-13), (1, False, math.nan))}
@@ -376,9 +384,14 @@ class ControllersTest(unittest.TestCase):
         ticks["TSID"] += controlled((1, True, math.nan))
         self.assertTrue(math.isnan(controllers.largest_residual(ticks)))
 
-    def test_no_residual_without_a_solved_tick(self):
+    def test_no_controller_is_right_without_a_solved_tick(self):
         ticks = {"Poise": controlled((1, False, 5))}
         self.assertEqual(controllers.largest_residual(ticks), 0)
+        self.assertFalse(controllers.is_right(ticks))
+        ticks = {"Poise": controlled((1, True, 1e-14), (1, False, 5))}
+        self.assertTrue(controllers.is_right(ticks))
+        ticks["TSID"] = controlled((1, True, 1e-3))
+        self.assertFalse(controllers.is_right(ticks))
 
 
 class HistogramsTest(unittest.TestCase):

@@ -52,6 +52,13 @@ def summarize(ticks):
         _largest([tick.residual for tick in ticks if tick.is_solved]))
 
 
+def is_right(ticks):
+    """Returns whether each controller solves ticks, and all of these rightly."""
+    return (largest_residual(ticks) <= MOST_RESIDUAL
+            and all(any(tick.is_solved for tick in each)
+                    for each in ticks.values()))
+
+
 def head():
     cells = ["sequence", "controller", "median", "p99", "worst", "not solved",
              "residual", "Poise / peer: median", "p99", "worst", "goal"]
@@ -59,8 +66,13 @@ def head():
 
 
 def goal(ours, theirs):
-    """Returns whether Poise has reached its goal."""
-    return (ours.median <= MOST_AT_MEDIAN * theirs.median
+    """Returns whether Poise has reached its goal.
+
+    It must solve all ticks, and the peer's slow failures allow it no more time.
+    """
+    return (ours.not_solved == 0 and theirs.not_solved == 0
+            and ours.residual <= MOST_RESIDUAL
+            and ours.median <= MOST_AT_MEDIAN * theirs.median
             and ours.worst <= MOST_AT_WORST * theirs.worst)
 
 

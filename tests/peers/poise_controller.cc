@@ -1,5 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // The adapter of Poise's own controller, with its default options.
+#include <stdexcept>
+#include <string>
+
 #include "poise/robot/control/controller.h"
 #include "poise/tests/peers/peer_controller.h"
 
@@ -11,7 +14,9 @@ class PoiseController final : public PeerController {
   explicit PoiseController(const ControllerSetup& setup)
       : controller_(setup.robot), state_(setup.start) {
     for (const char* task : {"torque_limits", "joint_limits"}) {
-      (void)controller_.stack().Enable(task, setup.has_limits);
+      if (!controller_.stack().Enable(task, setup.has_limits)) {
+        throw std::invalid_argument(std::string("no task ") + task);
+      }
     }
     command_.tau.setZero(setup.robot.model.tree.num_joints());
     controller_.Start(setup.start);

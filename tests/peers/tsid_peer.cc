@@ -160,7 +160,10 @@ class TsidPeer final : public PeerController {
     VectorXd effort(limits.size()), velocity(limits.size());
     for (size_t j = 0; j < limits.size(); ++j) {
       effort[j] = limits[j].effort;
-      velocity[j] = std::min(limits[j].velocity, kAssumedVelocity);
+      // 0: not known.
+      velocity[j] = limits[j].velocity > 0
+                        ? std::min(limits[j].velocity, kAssumedVelocity)
+                        : kAssumedVelocity;
     }
     torque_bounds_.setBounds(-effort, effort);
     velocity_bounds_.setVelocityBounds(-velocity, velocity);
