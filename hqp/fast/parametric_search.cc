@@ -103,7 +103,7 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
 }
 
 // Moves y and the multipliers to the next change of the working set, and makes this
-// change. Returns false without a change if there is none before the end of the path.
+// change, or, if there is none before the end of the path, returns false.
 bool ParametricSearch::Step(const Hierarchy& hierarchy,
                             const WorkingSetProblem& problem, Change* last,
                             Sides* side) {

@@ -222,8 +222,8 @@ TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
   EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
 }
 
-// Boxes y_j <= 1 around independent variables. The targets move from 0 and reach the
-// bounds one after the other.
+// Boxes y_j <= upper_j, 1 by default, and a target for each y_j, or, if y_1 follows y_0, for
+// y_1 - y_0. The targets move from 0 and reach the bounds one after the other.
 class ParametricSearchBoxesTest : public testing::Test {
  protected:
   static constexpr int kVariables = 6;
@@ -233,9 +233,10 @@ class ParametricSearchBoxesTest : public testing::Test {
     InequalityBlock bounds = hierarchy.AddInequalities(0, kVariables);
     bounds.C.setIdentity();
     bounds.lower.setConstant(-kInfinity);
-    bounds.upper.setOnes();
+    bounds.upper = upper_;
     EqualityBlock task = hierarchy.AddEqualities(1, kVariables);
     task.B.setIdentity();
+    if (follows_) task.B(1, 0) = -1;
     task.b = -target;
     // With an inequality, the level is a leading one.
     InequalityBlock loose = hierarchy.AddInequalities(1, 1);
@@ -251,6 +252,8 @@ class ParametricSearchBoxesTest : public testing::Test {
     return static_cast<int>(std::count(side.begin(), side.end(), Side::kUpper));
   }
 
+  Eigen::VectorXd upper_ = Eigen::VectorXd::Ones(kVariables);
+  bool follows_ = false;  // Whether y_1 follows y_0.
   const std::vector<LevelCapacity> capacity_{{0, kVariables}, {kVariables, 1}};
   Search search_{kVariables, capacity_};
 };
@@ -293,6 +296,22 @@ TEST_F(ParametricSearchBoxesTest, RemovesRowsTogetherWhoseMultiplierIsZero) {
   EXPECT_NEAR((search_.y() + ones).norm(), 0, kTolerance);
 }
 
+// y_1 follows y_0, which stops at 1, so that y_1 does not reach its bound 1.2. This bound is
+// added ahead and removed again. Two others are added with it, and the last two then one by one.
+TEST_F(ParametricSearchBoxesTest, AddsNoMoreRowsAheadAfterAWrongOne) {
+  follows_ = true;
+  upper_ << 1, 1.2, 3, 3, 3, 3;
+  search_.Begin(Start());
+  Eigen::VectorXd target(kVariables), y(kVariables);
+  target << 4, 0, 7, 6, 5, 4;
+  y << 1, 1, 3, 3, 3, 3;
+  ASSERT_TRUE(search_.Follow(At(target)));
+  EXPECT_NEAR((search_.y() - y).norm(), 0, 10 * kTolerance);  // |y| is 6.2.
+  // The first iteration adds y_0's bound, the wrong one and two others, the second removes
+  // the wrong one, and two more add one bound each.
+  EXPECT_EQ(search_.iterations(), 4);
+}
+
 // y_1 follows y_0, with y_0 <= 1 and y_1 <= 1.5. The target of y_0 moves from 0 to 2, and
 // y_1 would reach its bound if y_0 did not stop before. So this bound is added ahead, and
 // must be removed again.
@@ -318,41 +337,6 @@ TEST(ParametricSearch, RemovesARowThatWasAddedAhead) {
   EXPECT_EQ(search.side()[0][0], Side::kUpper);
   EXPECT_EQ(search.side()[0][1], Side::kNone);
   EXPECT_NEAR((search.y() - Eigen::Vector2d(1, 1)).norm(), 0, kTolerance);
-}
-
-// A pair as above, and four boxes around independent variables that are reached later.
-// After the wrong guess they are added one by one.
-TEST(ParametricSearch, AddsNoMoreRowsAheadAfterAWrongOne) {
-  constexpr int kVariables = 6;
-  const std::vector<LevelCapacity> capacity{{0, kVariables}, {kVariables, 1}};
-  const auto at = [&](double time) {
-    Hierarchy hierarchy(kVariables, capacity);
-    InequalityBlock bounds = hierarchy.AddInequalities(0, kVariables);
-    bounds.C.setIdentity();
-    bounds.lower.setConstant(-kInfinity);
-    bounds.upper << 1, 1.2, 3, 3, 3, 3;
-    EqualityBlock task = hierarchy.AddEqualities(1, kVariables);
-    task.B.setIdentity();
-    task.B(1, 0) = -1;
-    Eigen::VectorXd target(kVariables);
-    target << 4, 0, 7, 6, 5, 4;
-    task.b = -time * target;
-    InequalityBlock loose = hierarchy.AddInequalities(1, 1);
-    loose.C.setOnes();
-    loose.lower.setConstant(-kInfinity);
-    loose.upper.setConstant(kInfinity);
-    hierarchy.FindSpans();
-    return hierarchy;
-  };
-  Search search(kVariables, capacity);
-  search.Begin(at(0));
-  ASSERT_TRUE(search.Follow(at(1)));
-  Eigen::VectorXd y(kVariables);
-  y << 1, 1, 3, 3, 3, 3;
-  EXPECT_NEAR((search.y() - y).norm(), 0, 10 * kTolerance);
-  // The first iteration adds y_0's bound, the wrong one and two others, the second removes
-  // the wrong one, and two more add one bound each.
-  EXPECT_EQ(search.iterations(), 4);
 }
 
 // The bound on y_0 is removed from the working set, and the path is paused. On the rest

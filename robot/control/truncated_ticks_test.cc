@@ -56,7 +56,8 @@ class TruncatedTicksTest : public ControllerTest {
   void ExpectLevelsAboveHold() const;
   void ExpectTorqueLimits() const;
 
-  static constexpr double kDt = 1e-3, kBudget = 1e-3;  // s.
+  // A controller at 1 kHz [s]. Any other budget would do: the clock is made here.
+  static constexpr double kDt = 1e-3, kBudget = 1e-3;
 
   double seconds_ = 0, seconds_per_reading_ = 0;
   Controller hasty_;
