@@ -15,10 +15,9 @@ namespace {
 // likely to reach the optimum first: they need not follow each change of the working
 // set between the last optimum and this one. No longer path is better for all
 // sequences (docs/notebook/2026-11-28-groups.md).
-constexpr int kLongPath = 20;
+constexpr int kLongPath = 25;
 
-// How often a search without a limit of time removes many rows together, see
-// RemoveConstraints(). With 4 and 10 the worst ticks are the same
+// How often a search removes many rows together, see RemoveConstraints(). With 4 and 10 the worst ticks are the same
 // (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxTogether = 4;
 
@@ -111,8 +110,7 @@ bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
                                         Budget* budget,
                                         WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
-  // With a limit of time, steps must be short.
-  num_together_ = budget->has_time_limit() ? 1 : kMaxTogether;
+  num_together_ = kMaxTogether;
   if (!InitializeAllLevels(hierarchy, problem, side)) return true;
   // The leading levels come first, because their steps are cheaper. With a limit
   // of time, all of them but the last are searched alone before. If these need no

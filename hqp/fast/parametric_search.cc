@@ -13,9 +13,17 @@
 namespace poise {
 namespace {
 
-// Most rows that are added ahead in one iteration. Of 2, 3, 4 and 6, none is best for all
-// recorded sequences (docs/notebook/2026-11-28-groups.md).
+// Most rows that are added or removed ahead in one iteration. Of 2, 3, 4 and 6, none is
+// best for all recorded sequences (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxAhead = 3;
+
+// Most rows that one iteration removes. One iteration must not take long, because a limit
+// of time is only checked between two of them.
+constexpr int kMaxRemoved = kMaxAhead + 1;
+
+// After so many changes of one kind in a row, the path looks ahead. With 3 and 5, ticks of
+// some robots take longer (docs/notebook/2026-11-28-groups.md).
+constexpr int kLongRun = 4;
 
 }  // namespace
 
@@ -77,18 +85,16 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
   // starts over.
   removals_.Reset(hierarchy);
   skips_near_ = false;
-  // With a limit of time, an iteration changes one row, because the time is only checked
-  // between two iterations, and many changes can take long.
-  const bool changes_many = !budget->has_time_limit();
-  bool looks_ahead = changes_many, has_added_ahead = false;
   TakeWorkingSet(*side);
+  Run run = {true, kLongRun};
   for (Change last;;) {
     const int size = problem->num_levels() + 1;
     problem->FindMultipliers(size);
-    if (changes_many && RemoveVanished(*problem, size, &last, side)) {
-      // One wrong guess is followed by others.
-      looks_ahead = looks_ahead && !has_added_ahead;
-    } else if (!Step(hierarchy, *problem, &last, side)) {
+    if (RemoveVanished(*problem, size, &last, side)) {
+      run.Count(false);
+    } else if (Step(hierarchy, *problem, &last, side)) {
+      run.Count(last.added.level >= 0);
+    } else {
       y_ = problem->y();
       return true;
     }
@@ -96,8 +102,11 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       side_ = *side;
       return false;
     }
-    has_added_ahead = looks_ahead && last.added.level >= 0 &&
-                      AddAhead(hierarchy, *problem, last, side);
+    if (run.length >= kLongRun && run.adds) {
+      AddAhead(hierarchy, *problem, last, side);
+    } else if (run.length >= kLongRun) {
+      RemoveAhead(*problem, size, last, side);
+    }
     problem->Solve(hierarchy, *side);
   }
 }
@@ -125,83 +134,15 @@ bool ParametricSearch::Step(const Hierarchy& hierarchy,
   return true;
 }
 
-bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
-                                            int limit, Budget* budget,
-                                            WorkingSetProblem* problem,
-                                            Sides* side) {
-  const int leading = problem->num_leading();
-  // The last solve spent its budget here. The path must advance as well.
-  if (leading < 2 || skips_near_) return true;
-  removals_.Reset(hierarchy);
-  problem->Approach(y_, leading - 1);
-  if (FindBlocking(hierarchy, *problem, leading - 1, {}, *side).side ==
-      Side::kNone) {
-    y_ = problem->y();
-    return true;
-  }
-  skips_near_ = true;
-  center_ = y_;
-  const int known = is_near_known_ ? leading - 1 : 0;
-  std::copy(side->begin() + known, side->end(), near_side_.begin() + known);
-  FitToBounds(hierarchy, &near_side_);
-  is_near_known_ = true;
-  problem->UseLeading(leading - 1);
-  if (!FindNearest(hierarchy, limit, budget, problem, &near_side_) ||
-      !budget->Take(limit, problem->work())) {
-    Pause(*side);
-    *side = near_side_;
-    return false;
-  }
-  problem->UseLeading(leading);
-  problem->SolveLeading(hierarchy, *side);
-  return true;
-}
-
-// Moves y to the optimum of the leading levels that is closest to center_. There, few
-// rows have a positive multiplier, so that rows with a negative one are removed
-// together.
-bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
-                                   Budget* budget, WorkingSetProblem* problem,
-                                   Sides* side) {
-  const int num_levels = problem->num_leading();
-  for (Change last;;) {
-    if (!budget->Take(limit, problem->work())) return false;
-    problem->SolveLeading(hierarchy, *side);
-    problem->Approach(center_);
-    problem->FindMultipliersOfApproach(center_);
-    if (RemoveNegative(*problem, num_levels + 1, last, side)) {
-      last = {};
-      continue;
-    }
-    const Blocking blocking =
-        FindBlocking(hierarchy, *problem, num_levels, last, *side);
-    StepTo(problem->y(), blocking.time);
-    if (blocking.side == Side::kNone) return true;
-    last = Add(blocking, side);
-  }
-}
-
-// Removes all rows with a negative multiplier. Returns whether there was one.
-bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
-                                      int size, const Change& last,
-                                      Sides* side) {
-  bool any = false;
-  for (int a = 0; a < problem.leading().num_rows(); ++a) {
-    if (!MayRemove(problem, size, last, *side, a)) continue;
-    (void)Remove({problem.row(a).level, problem.row(a).index}, side);
-    any = true;
-  }
-  return any;
-}
-
-// Removes all rows whose multiplier is zero at the time that has been reached and
-// negative at the end of the path. Returns whether there was one. The row that was added
+// Removes rows whose multiplier is zero at the time that has been reached and negative at
+// the end of the path, kMaxRemoved at most. Returns whether there was one. The row that was added
 // last stays protected from removal, and one that is removed alone from being added.
 bool ParametricSearch::RemoveVanished(const WorkingSetProblem& problem,
                                       int size, Change* last, Sides* side) {
   int removed = 0;
   Change change;
-  for (int a = 0; a < problem.leading().num_rows(); ++a) {
+  for (int a = 0; a < problem.leading().num_rows() && removed < kMaxRemoved;
+       ++a) {
     const RowIndex row = {problem.row(a).level, problem.row(a).index};
     if (!problem.row(a).is_inequality ||
         infinitesimals::Sign(start_.At(row.level, row.row), size) > 0 ||
@@ -287,10 +228,10 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
 }
 
 // Adds those rows of one variable that block next, up to kMaxAhead, but none that has
-// been removed on this path. Returns whether there was one. When a robot reaches its
-// limits, many such rows are added one after the other; most are independent of each
-// other, and a wrong one gets a negative multiplier and is removed.
-bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
+// been removed on this path. When a robot reaches its limits, many such rows are added one
+// after the other; most are independent of each other, and a wrong one gets a negative
+// multiplier and is removed.
+void ParametricSearch::AddAhead(const Hierarchy& hierarchy,
                                 const WorkingSetProblem& problem,
                                 const Change& last, Sides* side) {
   const double noise = Noise(problem);
@@ -316,7 +257,18 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
   for (const Blocking& row : next) {
     if (row.side != Side::kNone) (void)Add(row, side);
   }
-  return next[0].side != Side::kNone;
+}
+
+// Removes those rows whose multipliers become negative next, up to kMaxAhead. From then on,
+// their multiplier counts as zero. A wrong one blocks at once and is added again.
+void ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
+                                   const Change& last, Sides* side) {
+  for (int i = 0; i < kMaxAhead; ++i) {
+    const RowIndex row = FindRemoval(problem, size, last, *side);
+    if (row.level < 0) return;
+    start_.Remove(row.level, row.row);
+    (void)Remove(row, side);
+  }
 }
 
 // Finds the row whose multiplier becomes negative first, and the time at which this
@@ -345,7 +297,7 @@ RowIndex ParametricSearch::FindRemoval(const WorkingSetProblem& problem,
 }
 
 // Returns whether row a may be removed, and its multiplier at the end of the path is
-// negative. That multiplier is then in end_. The row that was added last stays: only
+// negative. It is zero if the row has been removed already. That multiplier is then in end_. The row that was added last stays: only
 // rounding can make its multiplier negative.
 bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
                                  const Change& last, const Sides& side, int a) {

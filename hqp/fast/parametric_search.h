@@ -100,6 +100,15 @@ class ParametricSearch {
     RowIndex removed;
     Side removed_side = Side::kNone;
   };
+  /// The number of last changes that were all additions, or all removals.
+  struct Run {
+    bool adds;
+    int length;
+    void Count(bool is_addition) {
+      length = is_addition == adds ? length + 1 : 1;
+      adds = is_addition;
+    }
+  };
 
   void TakeWorkingSet(const Sides& side);
   bool FindNearest(const Hierarchy& hierarchy, int limit, Budget* budget,
@@ -117,8 +126,10 @@ class ParametricSearch {
   Blocking FindBlocking(const Hierarchy& hierarchy,
                         const WorkingSetProblem& problem, int num_levels,
                         const Change& last, const Sides& side);
-  bool AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+  void AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
                 const Change& last, Sides* side);
+  void RemoveAhead(const WorkingSetProblem& problem, int size,
+                   const Change& last, Sides* side);
   RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
                        const Change& last, const Sides& side);
   bool MayRemove(const WorkingSetProblem& problem, int size, const Change& last,

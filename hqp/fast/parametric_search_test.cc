@@ -61,15 +61,9 @@ class Search {
     Start(hierarchy);
     return FollowFromHere(hierarchy, limit);
   }
-  // Follow() with a limit of time that is not reached.
-  bool FollowWithATimeLimit(const Hierarchy& hierarchy) {
-    Start(hierarchy);
-    return FollowFromHere(hierarchy, kEnough, 1e3);
-  }
   // Follows the path if the leading levels are solved already.
-  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough,
-                      double seconds = 0) {
-    Budget budget({limit, seconds}, &no_clock_);
+  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough) {
+    Budget budget({limit}, &no_clock_);
     problem_.SolveDiagonal();
     const CountMalloc count;
     const bool is_optimal =
@@ -222,11 +216,11 @@ TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
   EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
 }
 
-// Boxes y_j <= upper_j, 1 by default, and a target for each y_j, or, if y_1 follows y_0, for
-// y_1 - y_0. The targets move from 0 and reach the bounds one after the other.
+// Twelve boxes y_j <= upper_j, and a target for each y_j, but for y_5 plus leads_ times the
+// variables before it. By default, the bounds are 1, and y_5 has a target of its own.
 class ParametricSearchBoxesTest : public testing::Test {
  protected:
-  static constexpr int kVariables = 6;
+  static constexpr int kVariables = 12, kFollower = 5, kLeaders = kFollower;
 
   Hierarchy At(const Eigen::VectorXd& target) const {
     Hierarchy hierarchy(kVariables, capacity_);
@@ -236,7 +230,7 @@ class ParametricSearchBoxesTest : public testing::Test {
     bounds.upper = upper_;
     EqualityBlock task = hierarchy.AddEqualities(1, kVariables);
     task.B.setIdentity();
-    if (follows_) task.B(1, 0) = -1;
+    task.B.block<1, kLeaders>(kFollower, 0) = leads_;
     task.b = -target;
     // With an inequality, the level is a leading one.
     InequalityBlock loose = hierarchy.AddInequalities(1, 1);
@@ -252,8 +246,17 @@ class ParametricSearchBoxesTest : public testing::Test {
     return static_cast<int>(std::count(side.begin(), side.end(), Side::kUpper));
   }
 
+  // Returns whether no row of the side `second` is before one of the side `first`.
+  bool AreSorted(Side first, Side second) {
+    const std::vector<Side>& side = search_.side()[0];
+    return std::is_sorted(side.begin(), side.end(), [=](Side x, Side y) {
+      return x == first && y == second;
+    });
+  }
+
   Eigen::VectorXd upper_ = Eigen::VectorXd::Ones(kVariables);
-  bool follows_ = false;  // Whether y_1 follows y_0.
+  Eigen::Matrix<double, 1, kLeaders> leads_ =
+      Eigen::Matrix<double, 1, kLeaders>::Zero();
   const std::vector<LevelCapacity> capacity_{{0, kVariables}, {kVariables, 1}};
   Search search_{kVariables, capacity_};
 };
@@ -262,54 +265,98 @@ class ParametricSearchBoxesTest : public testing::Test {
 // the path itself stops at the first one.
 TEST_F(ParametricSearchBoxesTest, AddsRowsAheadInTheOrderOfTheirTimes) {
   search_.Begin(Start());
-  Eigen::VectorXd target(kVariables);
-  target << 7, 6, 5, 4, 3, 2;
+  Eigen::VectorXd target = Eigen::VectorXd::Zero(kVariables);
+  target.head(6) << 7, 6, 5, 4, 3, 2;
   const Hierarchy end = At(target);
   ASSERT_FALSE(search_.Follow(end, 1));
   // The row of the first iteration, three ahead, and the row of the second iteration.
   EXPECT_EQ(NumActive(), 5);
-  EXPECT_TRUE(std::is_sorted(
-      search_.side()[0].begin(), search_.side()[0].end(),
-      [](Side x, Side y) { return x == Side::kUpper && y == Side::kNone; }));
+  EXPECT_TRUE(AreSorted(Side::kUpper, Side::kNone));
   ASSERT_TRUE(search_.Follow(end));
-  EXPECT_EQ(NumActive(), kVariables);
-  EXPECT_NEAR((search_.y() - Eigen::VectorXd::Ones(kVariables)).norm(), 0,
-              kTolerance);
+  EXPECT_EQ(NumActive(), 6);
+  EXPECT_NEAR((search_.y() - target.cwiseMin(1)).norm(), 0, kTolerance);
 }
 
-// A limit of time is only checked between two iterations, so that each adds one row.
-TEST_F(ParametricSearchBoxesTest, AddsOneRowAtATimeWithALimitOfTime) {
-  search_.Begin(Start());
-  ASSERT_TRUE(search_.FollowWithATimeLimit(
-      At(Eigen::VectorXd::LinSpaced(kVariables, 2, 7))));
-  EXPECT_EQ(search_.iterations(), kVariables);
-}
-
-// Six rows with the multiplier 0 are removed in one iteration: nothing moves before.
+// Twelve rows with the multiplier 0 are removed, four in each iteration: nothing moves
+// before.
 TEST_F(ParametricSearchBoxesTest, RemovesRowsTogetherWhoseMultiplierIsZero) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(kVariables);
   search_.Begin(At(ones));
   std::fill(search_.side()[0].begin(), search_.side()[0].end(), Side::kUpper);
-  ASSERT_TRUE(search_.Follow(At(-ones)));
+  const Hierarchy end = At(-ones);
+  ASSERT_FALSE(search_.Follow(end, 1));
+  EXPECT_EQ(NumActive(),
+            kVariables - 2 * 4);  // The second change is not solved.
+  ASSERT_TRUE(search_.Follow(end));
   EXPECT_EQ(NumActive(), 0);
-  EXPECT_EQ(search_.iterations(), 1);
   EXPECT_NEAR((search_.y() + ones).norm(), 0, kTolerance);
 }
 
-// y_1 follows y_0, which stops at 1, so that y_1 does not reach its bound 1.2. This bound is
-// added ahead and removed again. Two others are added with it, and the last two then one by one.
-TEST_F(ParametricSearchBoxesTest, AddsNoMoreRowsAheadAfterAWrongOne) {
-  follows_ = true;
-  upper_ << 1, 1.2, 3, 3, 3, 3;
+// y_5 follows y_0, which stops at 1, so that y_5 does not reach its bound 1.2. This bound
+// is added ahead and removed again.
+TEST_F(ParametricSearchBoxesTest, LooksAheadAgainAfterFourAdditions) {
+  leads_[0] = -1;
+  upper_.setConstant(3);
+  upper_[0] = 1;
+  upper_[kFollower] = 1.2;
   search_.Begin(Start());
-  Eigen::VectorXd target(kVariables), y(kVariables);
-  target << 4, 0, 7, 6, 5, 4;
-  y << 1, 1, 3, 3, 3, 3;
+  Eigen::VectorXd target(kVariables), y = upper_;
+  target << 4, 11, 10.5, 10, 9.5, 0, 9, 8.5, 8, 7.5, 7, 6.5;
+  y[kFollower] = 1;
   ASSERT_TRUE(search_.Follow(At(target)));
-  EXPECT_NEAR((search_.y() - y).norm(), 0, 10 * kTolerance);  // |y| is 6.2.
-  // The first iteration adds y_0's bound, the wrong one and two others, the second removes
-  // the wrong one, and two more add one bound each.
-  EXPECT_EQ(search_.iterations(), 4);
+  EXPECT_NEAR((search_.y() - y).norm(), 0, 20 * kTolerance);  // |y| is 10.
+  // The first iteration adds y_0's bound, the wrong one and two others, and the second
+  // removes the wrong one. Four more add one bound each, and the last of them three
+  // others. The seventh adds the last bound.
+  EXPECT_EQ(search_.iterations(), 7);
+}
+
+// All bounds are active at first, and none at the end. Four iterations remove one row
+// each, and the fourth removes three more: those whose multiplier vanishes next.
+TEST_F(ParametricSearchBoxesTest, RemovesRowsAheadAfterFourRemovals) {
+  search_.Begin(At(Eigen::VectorXd::LinSpaced(kVariables, 2, kVariables + 1)));
+  ASSERT_EQ(NumActive(), kVariables);
+  const Hierarchy end = Start();
+  ASSERT_FALSE(search_.Follow(end, 4));
+  EXPECT_EQ(NumActive(),
+            kVariables - 4 - 3 - 1);  // The last one is removed alone.
+  EXPECT_TRUE(AreSorted(Side::kNone, Side::kUpper));
+  ASSERT_TRUE(search_.Follow(end));
+  EXPECT_EQ(NumActive(), 0);
+  EXPECT_NEAR(search_.y().norm(), 0, kTolerance);
+}
+
+// y_4 + y_5 is to be 1.7 at the end. The multiplier of y_5's bound vanishes soon after that
+// of y_4's, if y_4 stays at its bound. But y_4 then gets -0.15, so that y_5 stays at its
+// bound. This bound is removed ahead and added again.
+TEST_F(ParametricSearchBoxesTest, AddsARowAgainThatWasRemovedAhead) {
+  leads_[kFollower - 1] = 1;
+  Eigen::VectorXd start(kVariables), end = Eigen::VectorXd::Zero(kVariables);
+  // Without y_4 and y_5, the multipliers vanish in the order of the rows.
+  start << 1.1, 1.2, 1.3, 1.4, 1.8, 2.3, 4, 5, 6, 7, 8, 9;
+  end[kFollower - 1] = -1;
+  end[kFollower] = 1.7;
+  search_.Begin(At(start));
+  ASSERT_EQ(NumActive(), kVariables);
+  ASSERT_TRUE(search_.Follow(At(end)));
+  EXPECT_EQ(NumActive(), 1);
+  EXPECT_EQ(search_.side()[0][kFollower], Side::kUpper);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(kVariables);
+  y[kFollower - 1] = -0.15;
+  y[kFollower] = 1;
+  EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
+  // Four iterations remove rows 0 to 3, and the last of them rows 4 to 6. The fifth adds
+  // row 5 again. Four more remove rows 7 to 10, and the last of them row 11.
+  EXPECT_EQ(search_.iterations(), 9);
+}
+
+// y is 0 and violates twelve bounds. Three iterations add four of them each, one finds that
+// y violates none, and one solves the levels again.
+TEST_F(ParametricSearchBoxesTest, AddsViolatedBoundsTogetherToMeetTheirLevel) {
+  search_.Begin(Start());
+  upper_.setConstant(-1);
+  ASSERT_TRUE(search_.MeetLevelsBeforeLast(Start(), 5));
+  EXPECT_NEAR((search_.y() - upper_).norm(), 0, kTolerance);
 }
 
 // y_1 follows y_0, with y_0 <= 1 and y_1 <= 1.5. The target of y_0 moves from 0 to 2, and
