@@ -205,7 +205,7 @@ Stopped SolveWithLargerLimits(const HierarchyCase& drawn,
   return stopped;
 }
 
-// The cost of a level need not fall at each step of a path. So of 20 000 problems, 39
+// The cost of a level need not fall at each step of a path. So of 20 000 problems, 36
 // have an answer that is worse with one iteration more (docs/limits.md); of 200, five or
 // more have one with a probability below 1e-4.
 TEST(SolverBudget, IsNoWorseWithOneIterationMore) {

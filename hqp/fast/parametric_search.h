@@ -25,9 +25,10 @@ namespace poise {
 /// infinitesimals.h. If the optimum changes little, so does the working set.
 ///
 /// Any working set can start the rest of a path from y if its multipliers are not
-/// negative: the bounds of its rows are shifted to their values at y. So rows whose
-/// multiplier is zero can be removed together, and rows can be added, with the multiplier
-/// zero, before y reaches their bound. Without a limit of time, both make a path shorter.
+/// negative: the bounds of its rows are shifted to their values at y, and the targets so
+/// that a row that leaves it has the multiplier zero. So rows can be removed together,
+/// also before their multipliers are zero, and rows can be added, with the multiplier
+/// zero, before y reaches their bound. This makes a path shorter.
 /// Where many rows block at the same time, only RemovalLimits and the limit of iterations
 /// exclude a cycle.
 ///
