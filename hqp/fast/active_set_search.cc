@@ -14,11 +14,11 @@ namespace {
 // Longest path, in iterations. After more iterations, steps of the primal method are
 // likely to reach the optimum first: they need not follow each change of the working
 // set between the last optimum and this one. No longer path is better for all
-// sequences (docs/notebook/2026-11-28-groups.md).
+// sequences (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongPath = 25;
 
-// How often a search removes many rows together, see RemoveConstraints(). With 4 and 10 the worst ticks are the same
-// (docs/notebook/2026-11-28-groups.md).
+// How often a search removes many rows together, see RemoveConstraints(). With 4 and 10
+// the worst ticks are the same (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxTogether = 4;
 
 }  // namespace

@@ -206,7 +206,7 @@ class UpdatedLexicographicFactorizationTest
     if (is_fixed) poise::AppendRow(row, target, &merged_[0]);
   }
   // The projections of the other levels are kept in every other test. They are
-  // orthogonal to the merged level to within two digits of rounding.
+  // orthogonal to the merged level to within three digits of rounding.
   bool KeepsProjections() const { return GetParam() % 2 == 0; }
   void AddOtherLevels();
   // Adds the other levels, compares the optimum with the one by singular

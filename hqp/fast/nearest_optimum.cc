@@ -60,8 +60,11 @@ bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
     StepTo(problem->y(), blocking.time);
     if (blocking.side == Side::kNone) return true;
     last = Add(blocking, side);
-    // Bounds that y violates all block at once.
-    if (blocking.time == 0) AddAhead(hierarchy, *problem, last, side);
+    // If y violates one bound, it is likely to violate others, which also block at once.
+    if (blocking.time == 0 &&
+        AddAhead(hierarchy, *problem, num_levels, last, side)) {
+      last = {};
+    }
   }
 }
 

@@ -17,12 +17,12 @@ namespace {
 // best for all recorded sequences (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxAhead = 3;
 
-// Most rows that one iteration removes. One iteration must not take long, because a limit
-// of time is only checked between two of them.
+// Most rows without a multiplier that one iteration removes. One iteration must not take
+// long, because a limit of time is only checked between two of them.
 constexpr int kMaxRemoved = kMaxAhead + 1;
 
 // After so many changes of one kind in a row, the path looks ahead. With 3 and 5, ticks of
-// some robots take longer (docs/notebook/2026-11-28-groups.md).
+// some robots take longer (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongRun = 4;
 
 }  // namespace
@@ -102,10 +102,12 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       side_ = *side;
       return false;
     }
-    if (run.length >= kLongRun && run.adds) {
-      AddAhead(hierarchy, *problem, last, side);
-    } else if (run.length >= kLongRun) {
-      RemoveAhead(*problem, size, last, side);
+    if (run.length >= kLongRun) {
+      const bool any = run.adds
+                           ? AddAhead(hierarchy, *problem, size - 1, last, side)
+                           : RemoveAhead(*problem, size, last, side);
+      // Rows that change ahead may require that the last change is undone.
+      if (any) last = {};
     }
     problem->Solve(hierarchy, *side);
   }
@@ -135,8 +137,8 @@ bool ParametricSearch::Step(const Hierarchy& hierarchy,
 }
 
 // Removes rows whose multiplier is zero at the time that has been reached and negative at
-// the end of the path, kMaxRemoved at most. Returns whether there was one. The row that was added
-// last stays protected from removal, and one that is removed alone from being added.
+// the end of the path, kMaxRemoved at most. Returns whether there was one. The row that was
+// added last stays protected from removal, and one that is removed alone from being added.
 bool ParametricSearch::RemoveVanished(const WorkingSetProblem& problem,
                                       int size, Change* last, Sides* side) {
   int removed = 0;
@@ -227,16 +229,17 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
   return first;
 }
 
-// Adds those rows of one variable that block next, up to kMaxAhead, but none that has
-// been removed on this path. When a robot reaches its limits, many such rows are added one
-// after the other; most are independent of each other, and a wrong one gets a negative
-// multiplier and is removed.
-void ParametricSearch::AddAhead(const Hierarchy& hierarchy,
+// Adds those rows of one variable of the first `num_levels` levels that block next, up to
+// kMaxAhead, but none that has been removed on this path. Returns whether there was one.
+// When a robot reaches its limits, many such rows are added one after the other; most are
+// independent of each other, and a wrong one gets a negative multiplier and is removed.
+bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
                                 const WorkingSetProblem& problem,
-                                const Change& last, Sides* side) {
+                                int num_levels, const Change& last,
+                                Sides* side) {
   const double noise = Noise(problem);
   std::array<Blocking, kMaxAhead> next;  // In the order of their times.
-  for (int level = 0; level < problem.num_levels(); ++level) {
+  for (int level = 0; level < num_levels; ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       const Span span = hierarchy.C_span(level)[i];
@@ -257,18 +260,24 @@ void ParametricSearch::AddAhead(const Hierarchy& hierarchy,
   for (const Blocking& row : next) {
     if (row.side != Side::kNone) (void)Add(row, side);
   }
+  return next[0].side != Side::kNone;
 }
 
-// Removes those rows whose multipliers become negative next, up to kMaxAhead. From then on,
-// their multiplier counts as zero. A wrong one blocks at once and is added again.
-void ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
+// Removes those rows whose multipliers become negative next, up to kMaxAhead, and none
+// after one that has been removed on this path. From then on, their multipliers count as
+// zero. Returns whether there was one. A row that should have stayed blocks at once and is
+// added again.
+bool ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
                                    const Change& last, Sides* side) {
+  bool any = false;
   for (int i = 0; i < kMaxAhead; ++i) {
     const RowIndex row = FindRemoval(problem, size, last, *side);
-    if (row.level < 0) return;
+    if (row.level < 0 || !removals_.HasAllRemovals(row)) break;
     start_.Remove(row.level, row.row);
     (void)Remove(row, side);
+    any = true;
   }
+  return any;
 }
 
 // Finds the row whose multiplier becomes negative first, and the time at which this
@@ -297,8 +306,9 @@ RowIndex ParametricSearch::FindRemoval(const WorkingSetProblem& problem,
 }
 
 // Returns whether row a may be removed, and its multiplier at the end of the path is
-// negative. It is zero if the row has been removed already. That multiplier is then in end_. The row that was added last stays: only
-// rounding can make its multiplier negative.
+// negative. That multiplier is then in end_. The row that was added last stays: only
+// rounding can make its multiplier negative. A row that was removed already has the
+// multiplier zero.
 bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
                                  const Change& last, const Sides& side, int a) {
   const WorkingSetProblem::Row& row = problem.row(a);

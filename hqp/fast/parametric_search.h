@@ -25,10 +25,10 @@ namespace poise {
 /// infinitesimals.h. If the optimum changes little, so does the working set.
 ///
 /// Any working set can start the rest of a path from y if its multipliers are not
-/// negative: the bounds of its rows are shifted to their values at y, and the targets so
-/// that a row that leaves it has the multiplier zero. So rows can be removed together,
-/// also before their multipliers are zero, and rows can be added, with the multiplier
-/// zero, before y reaches their bound. This makes a path shorter.
+/// negative: the bounds of its rows are shifted to their values at y, and the targets
+/// so that a row that is removed from it has the multiplier zero. So rows can be
+/// removed together, also before their multipliers are zero, and rows can be added,
+/// with the multiplier zero, before y reaches their bound. This makes a path shorter.
 /// Where many rows block at the same time, only RemovalLimits and the limit of iterations
 /// exclude a cycle.
 ///
@@ -101,7 +101,7 @@ class ParametricSearch {
     RowIndex removed;
     Side removed_side = Side::kNone;
   };
-  /// The number of last changes that were all additions, or all removals.
+  /// The number of last iterations that all added, or all removed, rows.
   struct Run {
     bool adds;
     int length;
@@ -127,9 +127,9 @@ class ParametricSearch {
   Blocking FindBlocking(const Hierarchy& hierarchy,
                         const WorkingSetProblem& problem, int num_levels,
                         const Change& last, const Sides& side);
-  void AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
-                const Change& last, Sides* side);
-  void RemoveAhead(const WorkingSetProblem& problem, int size,
+  bool AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                int num_levels, const Change& last, Sides* side);
+  bool RemoveAhead(const WorkingSetProblem& problem, int size,
                    const Change& last, Sides* side);
   RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
                        const Change& last, const Sides& side);

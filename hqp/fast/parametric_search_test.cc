@@ -246,7 +246,7 @@ class ParametricSearchBoxesTest : public testing::Test {
     return static_cast<int>(std::count(side.begin(), side.end(), Side::kUpper));
   }
 
-  // Returns whether no row of the side `second` is before one of the side `first`.
+  // Returns whether all rows with the side `first` precede those with `second`.
   bool AreSorted(Side first, Side second) {
     const std::vector<Side>& side = search_.side()[0];
     return std::is_sorted(side.begin(), side.end(), [=](Side x, Side y) {
@@ -288,17 +288,18 @@ TEST_F(ParametricSearchBoxesTest, RemovesRowsTogetherWhoseMultiplierIsZero) {
   EXPECT_EQ(NumActive(),
             kVariables - 2 * 4);  // The second change is not solved.
   ASSERT_TRUE(search_.Follow(end));
+  EXPECT_EQ(search_.iterations(), 1);
   EXPECT_EQ(NumActive(), 0);
   EXPECT_NEAR((search_.y() + ones).norm(), 0, kTolerance);
 }
 
-// y_5 follows y_0, which stops at 1, so that y_5 does not reach its bound 1.2. This bound
+// y_5 follows y_0, which stops at 1, so that y_5 does not reach its bound 1.1. This bound
 // is added ahead and removed again.
 TEST_F(ParametricSearchBoxesTest, LooksAheadAgainAfterFourAdditions) {
   leads_[0] = -1;
   upper_.setConstant(3);
   upper_[0] = 1;
-  upper_[kFollower] = 1.2;
+  upper_[kFollower] = 1.1;
   search_.Begin(Start());
   Eigen::VectorXd target(kVariables), y = upper_;
   target << 4, 11, 10.5, 10, 9.5, 0, 9, 8.5, 8, 7.5, 7, 6.5;
@@ -332,7 +333,7 @@ TEST_F(ParametricSearchBoxesTest, RemovesRowsAheadAfterFourRemovals) {
 TEST_F(ParametricSearchBoxesTest, AddsARowAgainThatWasRemovedAhead) {
   leads_[kFollower - 1] = 1;
   Eigen::VectorXd start(kVariables), end = Eigen::VectorXd::Zero(kVariables);
-  // Without y_4 and y_5, the multipliers vanish in the order of the rows.
+  // Except for rows 4 and 5, the multipliers vanish in the order of the rows.
   start << 1.1, 1.2, 1.3, 1.4, 1.8, 2.3, 4, 5, 6, 7, 8, 9;
   end[kFollower - 1] = -1;
   end[kFollower] = 1.7;
@@ -350,13 +351,47 @@ TEST_F(ParametricSearchBoxesTest, AddsARowAgainThatWasRemovedAhead) {
   EXPECT_EQ(search_.iterations(), 9);
 }
 
+// Rows 0 to 2 are removed, and then row 5, because y_5 is to be 1.1 - y_4 / 2. Row 4 is
+// removed with it, and y_4 then gets 0.04 and y_5 its bound. So row 5 must be added again.
+TEST_F(ParametricSearchBoxesTest, AddsTheRowAgainThatWasRemovedBeforeOthers) {
+  leads_[kFollower - 1] = 0.5;
+  Eigen::VectorXd start = Eigen::VectorXd::Constant(kVariables, 3);
+  Eigen::VectorXd end = start, y = Eigen::VectorXd::Ones(kVariables);
+  start.head(3) << 1.1, 1.2, 1.3;
+  start[kFollower] = 1.8;
+  end.head(kFollower) << 0, 0, 0, 3, 0;
+  end[kFollower] = 1.1;
+  y.head(kFollower) << 0, 0, 0, 1, 0.04;
+  search_.Begin(At(start));
+  ASSERT_EQ(NumActive(), kVariables);
+  ASSERT_TRUE(search_.Follow(At(end)));
+  EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
+}
+
+// y_5 follows 0.9 y_4 and reaches its bound first. Row 4 is added ahead, and y_5 then gets
+// 0.6. So the row that was added first must be removed again.
+TEST_F(ParametricSearchBoxesTest, RemovesTheRowThatWasAddedBeforeOthers) {
+  leads_[kFollower - 1] = -0.9;
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(kVariables);
+  Eigen::VectorXd end = start, y = start;
+  start[kFollower] = 0.9;
+  end.segment(kFollower - 1, 2) << 2, -0.3;
+  y.segment(kFollower - 1, 2) << 1, 0.6;
+  search_.Begin(At(start));
+  ASSERT_TRUE(search_.Follow(At(end)));
+  EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
+}
+
 // y is 0 and violates twelve bounds. Three iterations add four of them each, one finds that
 // y violates none, and one solves the levels again.
 TEST_F(ParametricSearchBoxesTest, AddsViolatedBoundsTogetherToMeetTheirLevel) {
+  Search other(kVariables, capacity_);
   search_.Begin(Start());
+  other.Begin(Start());
   upper_.setConstant(-1);
   ASSERT_TRUE(search_.MeetLevelsBeforeLast(Start(), 5));
   EXPECT_NEAR((search_.y() - upper_).norm(), 0, kTolerance);
+  EXPECT_FALSE(other.MeetLevelsBeforeLast(Start(), 4));
 }
 
 // y_1 follows y_0, with y_0 <= 1 and y_1 <= 1.5. The target of y_0 moves from 0 to 2, and

@@ -54,9 +54,9 @@ constexpr double kReorthogonalize = 0.5;
 constexpr double kIndependentPart = 1e-3;
 
 /// Factorisation: a kept remainder above this is orthogonal to the merged
-/// levels to within three digits of rounding, and is not projected again, as the
-/// other rows that are updated (kIndependentPart). Chosen: a value of 1 projects all
-/// of them again, and changes no count.
+/// levels to within three digits of rounding, and is not projected again. An update
+/// of the merged levels loses as many digits (kIndependentPart). Chosen: a value of 1
+/// projects all of them again, and changes no count.
 constexpr double kCleanRemainder = 1e-3;
 
 /// Factorisation: a downdated squared norm that is below this part of its last
