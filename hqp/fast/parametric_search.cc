@@ -21,8 +21,9 @@ constexpr int kMaxAhead = 3;
 // long, because a limit of time is only checked between two of them.
 constexpr int kMaxRemoved = kMaxAhead + 1;
 
-// After so many changes of one kind in a row, the path looks ahead. With 3 and 5, ticks of
-// some robots take longer (docs/notebook/2026-11-28-look-ahead.md).
+// After so many iterations in a row that all added, or all removed, rows, the path looks
+// ahead. With 3 and 5, ticks of some robots take longer
+// (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongRun = 4;
 
 }  // namespace
@@ -103,9 +104,9 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       return false;
     }
     if (run.length >= kLongRun) {
-      const bool any = run.adds
-                           ? AddAhead(hierarchy, *problem, size - 1, last, side)
-                           : RemoveAhead(*problem, size, last, side);
+      const bool any = run.adds ? AddAhead(hierarchy, *problem,
+                                           problem->num_levels(), last, side)
+                                : RemoveAhead(*problem, size, last, side);
       // Rows that change ahead may require that the last change is undone.
       if (any) last = {};
     }
@@ -114,7 +115,8 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
 }
 
 // Moves y and the multipliers to the next change of the working set, and makes this
-// change, or, if there is none before the end of the path, returns false.
+// change. If there is none before the end of the path, this returns false and moves
+// nothing.
 bool ParametricSearch::Step(const Hierarchy& hierarchy,
                             const WorkingSetProblem& problem, Change* last,
                             Sides* side) {
