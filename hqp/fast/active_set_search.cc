@@ -39,6 +39,7 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
   }
   value_.resize(most);
   slope_.resize(most);
+  factor_.resize(NumRows(capacity));
 }
 
 bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
@@ -63,6 +64,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
     problem->SolveDiagonal();
   }
   if (!SearchFromOptimum(hierarchy, limit, budget, problem, side)) return false;
+  goes_on_ = false;
   problem->FindMultipliers(hierarchy.num_levels() + 1);
   path_.Remember(*problem, *side);
   return true;
@@ -111,7 +113,11 @@ bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
                                         WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   num_together_ = kMaxTogether;
-  if (!InitializeAllLevels(hierarchy, problem, side)) return true;
+  // A search that goes on adds the violated rows one by one, so that each can replace a
+  // row that it depends on. With a limit of time, these are too many iterations.
+  const bool adds_violated = !goes_on_ || budget->has_time_limit();
+  if (!InitializeAllLevels(hierarchy, adds_violated, problem, side))
+    return true;
   // The leading levels come first, because their steps are cheaper. With a limit
   // of time, all of them but the last are searched alone before. If these need no
   // step, the last one gets theirs: else a small budget would never reach it.
@@ -182,13 +188,12 @@ void ActiveSetSearch::RestoreWorkingSet(
 }
 
 // Initializes the search on all levels; `problem` is solved for the working
-// set. Returns whether the working set changes. If not, y is the optimum.
+// set. Returns whether the search must go on. If not, y is the optimum.
 bool ActiveSetSearch::InitializeAllLevels(
-    const Hierarchy& hierarchy, WorkingSetProblem* problem,
+    const Hierarchy& hierarchy, bool adds_violated, WorkingSetProblem* problem,
     std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   removals_.Reset(hierarchy);
-  const bool goes_on = std::exchange(goes_on_, false);
   const int violated_at_optimum =
       FindViolated(hierarchy, *problem, problem->y(), *side);
   if (violated_at_optimum == 0) {
@@ -197,11 +202,12 @@ bool ActiveSetSearch::InitializeAllLevels(
   }
   // Fewer violated rows need fewer iterations. But what a search has reached
   // before it was stopped must not be lost.
-  if (goes_on ? IsBetter(hierarchy, problem->y(), y_)
-              : violated_at_optimum <=
-                    FindViolated(hierarchy, *problem, y_, *side)) {
+  if (goes_on_ ? IsBetter(hierarchy, problem->y(), y_)
+               : violated_at_optimum <=
+                     FindViolated(hierarchy, *problem, y_, *side)) {
     y_ = problem->y();
   }
+  if (!adds_violated) return true;
   FindViolated(hierarchy, *problem, y_, *side);
   for (int level = 0; level < levels; ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
@@ -293,20 +299,12 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
                            std::vector<std::vector<Side>>* side) {
   goes_on_ = true;
   if (path_.is_paused()) return;
-  const double largest = kernels::Largest(y_.data(), n_);
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    const int rows = hierarchy.num_inequalities(level);
-    kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
-                      rows, y_.data(), value_.data());
-    for (int i = 0; i < rows; ++i) {
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       Side& at = (*side)[level][i];
-      if (at == Side::kNone) continue;
-      const double bound = at == Side::kUpper ? upper[i] : lower[i];
-      const double inside =
-          at == Side::kUpper ? bound - value_[i] : value_[i] - bound;
-      const double size = problem.norm(level, i) * largest + std::abs(bound);
-      if (inside > tolerances::kZeroSlope * size) at = Side::kNone;
+      if (at != Side::kNone && IsInside(hierarchy, problem, {level, i}, at)) {
+        at = Side::kNone;
+      }
     }
   }
 }
@@ -334,63 +332,9 @@ void ActiveSetSearch::InitializeWorkingSet(
 bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
                               WorkingSetProblem* problem,
                               std::vector<std::vector<Side>>* side) {
-  return StepToBlockingConstraint(hierarchy, *problem, side) ||
-         RemoveConstraints(level, problem, side);
-}
-
-// Moves y towards the optimum of the working set, up to the first bound outside
-// the working set, and adds that bound to it. Among bounds at equal distance,
-// the steepest is added. Returns whether there is such a bound.
-bool ActiveSetSearch::StepToBlockingConstraint(
-    const Hierarchy& hierarchy, const WorkingSetProblem& problem,
-    std::vector<std::vector<Side>>* side) {
-  for (int j = 0; j < n_; ++j) step_[j] = problem.y()[j] - y_[j];
-  const double largest = kernels::Largest(step_.data(), n_);
-  const double rounding = tolerances::kSolutionRounding *
-                          (kernels::Largest(y_.data(), n_) + problem.Size());
-  const double noise = tolerances::kZeroSlope * largest + rounding;
-  double length = 1, steepest = 0;
-  RowIndex blocking;
-  Side at = Side::kNone;
-  for (int level = 0; level < problem.num_levels(); ++level) {
-    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    const int rows = hierarchy.num_inequalities(level);
-    const double* C = hierarchy.C(level).data();
-    const Span* spans = hierarchy.C_span(level);
-    kernels::SpanDots(C, n_, spans, rows, step_.data(), slope_.data());
-    kernels::SpanDots(C, n_, spans, rows, y_.data(), value_.data());
-    for (int i = 0; i < rows; ++i) {
-      const double slope = slope_[i], norm = problem.norm(level, i);
-      const Side towards = slope > 0 ? Side::kUpper : Side::kLower;
-      if ((*side)[level][i] == towards || !removals_.MayChange({level, i}) ||
-          std::abs(slope) <= noise * norm) {
-        continue;
-      }
-      const double gap =
-          slope > 0 ? upper[i] - value_[i] : lower[i] - value_[i];
-      const double ratio = std::max(gap / slope, 0.0);
-      const double steepness = std::abs(slope) / norm;
-      if (ratio < length ||
-          (ratio == length && ratio < 1 && steepness > steepest)) {
-        length = ratio;
-        steepest = steepness;
-        blocking = {level, i};
-        at = towards;
-      }
-    }
-  }
-  const bool has_moved = length * largest > rounding;
-  if (at == Side::kNone) {
-    y_ = problem.y();
-    return false;
-  }
-  for (int j = 0; j < n_; ++j) y_[j] += length * step_[j];
-  (*side)[blocking.level][blocking.row] = at;
-  if (!has_moved && blocking == last_removed_) {
-    // A removed row moves away from its bound. This one did not: rounding had
-    // made its multiplier negative.
-    removals_.Exhaust(blocking);
-  }
+  const RowIndex added = StepToBlockingConstraint(hierarchy, *problem, side);
+  if (added.level < 0) return RemoveConstraints(level, problem, side);
+  if (goes_on_) MakeWay(hierarchy, added, problem, side);
   return true;
 }
 

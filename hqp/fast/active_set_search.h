@@ -82,6 +82,11 @@ class ActiveSetSearch {
   struct Cost {
     double cost, size;  ///< Twice the cost of a level; squares of its terms.
   };
+  struct Blocking {
+    Side side = Side::kNone;  ///< kNone: the row does not block.
+    double length = 1;        ///< Part of the step up to its bound.
+    double steepness = 0;  ///< Slope, divided by the sum of absolute entries.
+  };
 
   void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
   enum class PathEnd { kOptimum, kBudget, kTooLong };
@@ -91,7 +96,7 @@ class ActiveSetSearch {
   bool SearchFromOptimum(const Hierarchy& hierarchy, int limit, Budget* budget,
                          WorkingSetProblem* problem,
                          std::vector<std::vector<Side>>* side);
-  bool InitializeAllLevels(const Hierarchy& hierarchy,
+  bool InitializeAllLevels(const Hierarchy& hierarchy, bool adds_violated,
                            WorkingSetProblem* problem,
                            std::vector<std::vector<Side>>* side);
   Cost FindCost(const Hierarchy& hierarchy, int level,
@@ -104,9 +109,17 @@ class ActiveSetSearch {
   bool Iterate(const Hierarchy& hierarchy, int level,
                WorkingSetProblem* problem,
                std::vector<std::vector<Side>>* side);
-  bool StepToBlockingConstraint(const Hierarchy& hierarchy,
-                                const WorkingSetProblem& problem,
-                                std::vector<std::vector<Side>>* side);
+  RowIndex StepToBlockingConstraint(const Hierarchy& hierarchy,
+                                    const WorkingSetProblem& problem,
+                                    std::vector<std::vector<Side>>* side);
+  Blocking FindBlocking(const Hierarchy& hierarchy,
+                        const WorkingSetProblem& problem, RowIndex row,
+                        Side side, double noise) const;
+  void MakeWay(const Hierarchy& hierarchy, RowIndex added,
+               WorkingSetProblem* problem,
+               std::vector<std::vector<Side>>* side);
+  bool IsInside(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                RowIndex row, Side side) const;
   bool RemoveConstraints(int level, WorkingSetProblem* problem,
                          std::vector<std::vector<Side>>* side);
   void FreezeViolated(int level, const WorkingSetProblem& problem,
@@ -118,8 +131,11 @@ class ActiveSetSearch {
   /// Optimum of the working set with which the last solve began.
   std::vector<double> set_optimum_;
   std::vector<double> step_, value_, slope_;
+  std::vector<double> factor_;  ///< By leading row, see MakeWay().
   RemovalLimits removals_;
-  bool goes_on_ = false;  ///< See Stop().
+  /// The primal method goes on from the y of a search that was stopped, or of a path
+  /// that was given up. This y may be strictly inside bounds of the working set.
+  bool goes_on_ = false;
   /// Iterations left that may remove rows together, see RemoveConstraints().
   int num_together_ = 0;
   /// The row removed last, if it was removed alone.

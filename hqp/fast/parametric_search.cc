@@ -104,9 +104,13 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       return false;
     }
     if (run.length >= kLongRun) {
-      const bool any = run.adds ? AddAhead(hierarchy, *problem,
-                                           problem->num_levels(), last, side)
-                                : RemoveAhead(*problem, size, last, side);
+      const bool any =
+          run.adds
+              ? AddAhead(hierarchy, *problem, problem->num_levels(), last, side)
+              : RemoveAhead(
+                    *problem, size,
+                    run.length >= 2 * kLongRun ? 2 * kMaxAhead : kMaxAhead,
+                    last, side);
       // Rows that change ahead may require that the last change is undone.
       if (any) last = {};
     }
@@ -265,14 +269,14 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
   return next[0].side != Side::kNone;
 }
 
-// Removes those rows whose multipliers become negative next, up to kMaxAhead, and none
+// Removes those rows whose multipliers become negative next, up to `most`, and none
 // after one that has been removed on this path. From then on, their multipliers count as
 // zero. Returns whether there was one. A row that should have stayed blocks at once and is
 // added again.
 bool ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
-                                   const Change& last, Sides* side) {
+                                   int most, const Change& last, Sides* side) {
   bool any = false;
-  for (int i = 0; i < kMaxAhead; ++i) {
+  for (int i = 0; i < most; ++i) {
     const RowIndex row = FindRemoval(problem, size, last, *side);
     if (row.level < 0 || !removals_.HasAllRemovals(row)) break;
     start_.Remove(row.level, row.row);

@@ -129,7 +129,7 @@ class ParametricSearch {
                         const Change& last, const Sides& side);
   bool AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
                 int num_levels, const Change& last, Sides* side);
-  bool RemoveAhead(const WorkingSetProblem& problem, int size,
+  bool RemoveAhead(const WorkingSetProblem& problem, int size, int most,
                    const Change& last, Sides* side);
   RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
                        const Change& last, const Sides& side);

@@ -162,6 +162,12 @@ class WorkingSetProblem {
   /// pre: FindMultipliers().
   int FindTradeOff(int level, double* trade_off);
 
+  /// Finds the factors, by leading row of unit length, with which these rows add up to
+  /// `row`, of num_variables numbers. Returns false if a part of it, kIndependentPart or
+  /// more, is independent of them.
+  /// pre: SolveLeading(). `factor` has room for all leading rows.
+  [[nodiscard]] bool FindCombination(const double* row, double* factor);
+
   /// Multiplier of an inequality row in a level's optimality condition.
   /// Positive: binding. Negative: removing the row lowers the cost. Zero if
   /// below tolerance, relative. On the row's own level it is the violation.

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "poise/hqp/fast/tolerances.h"
 #include "poise/tests/util/lexicographic.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/stacked_rows.h"
@@ -421,6 +423,40 @@ TEST_P(RandomWorkingSetProblemTest, FindsDirectionsThatTrade) {
                   Rounding(weight * p.norm() + of.size, kMaxRows,
                            condition * condition));
     }
+  }
+}
+
+// A random combination of the leading rows is found again, as a sum: if rows depend on each
+// other, the factors are not unique. A row with a part outside of their span is not found.
+TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
+  const Sides sides = MakeSides(1);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  const int rows = problem_.leading().num_rows();
+  if (rows == 0) return;
+  Eigen::MatrixXd unit(n_, rows);
+  for (int a = 0; a < rows; ++a) {
+    unit.col(a) = Original(problem_.row(a)) / problem_.row(a).norm;
+  }
+  const Eigen::VectorXd drawn = Eigen::VectorXd::LinSpaced(rows, -1, 2);
+  const Eigen::VectorXd row = unit * drawn;
+  const double condition =
+      SolveLexicographically(n_, Levels(sides, num_levels_, zero_)).condition;
+  Eigen::VectorXd factor(rows);
+  ASSERT_TRUE(problem_.FindCombination(row.data(), factor.data()));
+  const double rounding =
+      Rounding(drawn.norm() + factor.norm(), kMaxRows, condition);
+  EXPECT_LE((unit * factor - row).norm(), rounding);
+
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(unit, Eigen::ComputeFullU);
+  if (svd.rank() == n_) return;
+  // The last left singular vector is orthogonal to all rows. A part of 1e-3 of the row is
+  // allowed to be so.
+  const Eigen::VectorXd outside = svd.matrixU().col(n_ - 1);
+  for (const double part : {0.5, 2.0}) {
+    const Eigen::VectorXd other =
+        row + part * tolerances::kIndependentPart * row.norm() * outside;
+    EXPECT_EQ(problem_.FindCombination(other.data(), factor.data()), part < 1);
   }
 }
 

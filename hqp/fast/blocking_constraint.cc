@@ -1,0 +1,141 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// ActiveSetSearch: the step to a blocking constraint.
+#include <algorithm>
+#include <cmath>
+
+#include "poise/hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/tolerances.h"
+
+namespace poise {
+
+// Moves y towards the optimum of the working set, up to the first bound outside
+// the working set, and adds that bound to it. Among bounds at equal distance,
+// the steepest is added. Returns the row of this bound, or no row if there is none.
+RowIndex ActiveSetSearch::StepToBlockingConstraint(
+    const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+    std::vector<std::vector<Side>>* side) {
+  for (int j = 0; j < n_; ++j) step_[j] = problem.y()[j] - y_[j];
+  const double largest = kernels::Largest(step_.data(), n_);
+  const double rounding = tolerances::kSolutionRounding *
+                          (kernels::Largest(y_.data(), n_) + problem.Size());
+  const double noise = tolerances::kZeroSlope * largest + rounding;
+  Blocking first;
+  RowIndex added;
+  for (int level = 0; level < problem.num_levels(); ++level) {
+    const int rows = hierarchy.num_inequalities(level);
+    const double* C = hierarchy.C(level).data();
+    const Span* spans = hierarchy.C_span(level);
+    kernels::SpanDots(C, n_, spans, rows, step_.data(), slope_.data());
+    kernels::SpanDots(C, n_, spans, rows, y_.data(), value_.data());
+    for (int i = 0; i < rows; ++i) {
+      const Blocking row = FindBlocking(hierarchy, problem, {level, i},
+                                        (*side)[level][i], noise);
+      if (row.length < first.length ||
+          (row.length == first.length && row.length < 1 &&
+           row.steepness > first.steepness)) {
+        first = row;
+        added = {level, i};
+      }
+    }
+  }
+  if (added.level < 0) {
+    y_ = problem.y();
+    return added;
+  }
+  for (int j = 0; j < n_; ++j) y_[j] += first.length * step_[j];
+  (*side)[added.level][added.row] = first.side;
+  if (first.length * largest <= rounding && added == last_removed_) {
+    // A removed row moves away from its bound. This one did not: rounding had
+    // made its multiplier negative.
+    removals_.Exhaust(added);
+  }
+  return added;
+}
+
+// Finds where a step blocks at a row, whose side in the working set is `side`. In a search
+// that goes on, a bound that y violates at the start and at the end of the step blocks at
+// once; in others, such rows are in the working set from the start.
+// pre: value_ and slope_ are those of the row's level.
+ActiveSetSearch::Blocking ActiveSetSearch::FindBlocking(
+    const Hierarchy& hierarchy, const WorkingSetProblem& problem, RowIndex row,
+    Side side, double noise) const {
+  const double value = value_[row.row], slope = slope_[row.row];
+  const double norm = problem.norm(row.level, row.row);
+  const double upper = hierarchy.upper(row.level)[row.row];
+  const double lower = hierarchy.lower(row.level)[row.row];
+  if (!removals_.MayChange(row)) return {};
+  if (goes_on_ && (value > upper || value < lower)) {
+    const Side violated = value > upper ? Side::kUpper : Side::kLower;
+    const double start = value > upper ? value - upper : lower - value;
+    const double end = value > upper ? start + slope : start - slope;
+    const double rounding =
+        noise * norm +
+        tolerances::kZeroSlope *
+            (std::abs(value) + norm * kernels::Largest(y_.data(), n_));
+    if (side != violated && std::min(start, end) > rounding) {
+      return {violated, 0, end / norm};
+    }
+  }
+  const Side towards = slope > 0 ? Side::kUpper : Side::kLower;
+  if (side == towards || std::abs(slope) <= noise * norm) return {};
+  const double gap = slope > 0 ? upper - value : lower - value;
+  return {towards, std::max(gap / slope, 0.0), std::abs(slope) / norm};
+}
+
+// Removes a row from the working set if the row that a step has added depends on others. A
+// step along which the rows of the working set do not change has no slope on such a row.
+// So y does not yet meet one of these rows, and this one is removed, if it is strictly
+// inside its bound. Otherwise the optimum would violate a level that y does not
+// violate. Rows of levels above stay. At the next optimum, the removed row is inside its
+// bound.
+void ActiveSetSearch::MakeWay(const Hierarchy& hierarchy, RowIndex added,
+                              WorkingSetProblem* problem,
+                              std::vector<std::vector<Side>>* side) {
+  const double* row = hierarchy.C(added.level).data() + added.row * n_;
+  if (!problem->FindCombination(row, factor_.data())) return;
+  const int rows = problem->leading().num_rows();
+  const double rounding =
+      tolerances::kZeroFactor * kernels::Largest(factor_.data(), rows);
+  RowIndex removed;
+  double largest = 0;
+  for (int a = 0; a < rows; ++a) {
+    const RowIndex index = {problem->row(a).level, problem->row(a).index};
+    if (!problem->row(a).is_inequality || index.level < added.level) continue;
+    const Side at = (*side)[index.level][index.row];
+    const bool is_same_side = at == (*side)[added.level][added.row];
+    const double factor = is_same_side ? factor_[a] : -factor_[a];
+    if (factor <= rounding || index == added || !removals_.MayChange(index) ||
+        !IsInside(hierarchy, *problem, index, at)) {
+      continue;
+    }
+    if (index.level > removed.level ||
+        (index.level == removed.level && factor > largest)) {
+      removed = index;
+      largest = factor;
+    }
+  }
+  if (removed.level < 0) return;
+  (*side)[removed.level][removed.row] = Side::kNone;
+  removals_.CountRemoval(removed);
+}
+
+// Returns whether y is strictly inside the bound of a row.
+bool ActiveSetSearch::IsInside(const Hierarchy& hierarchy,
+                               const WorkingSetProblem& problem, RowIndex row,
+                               Side side) const {
+  double value;
+  kernels::SpanDots(hierarchy.C(row.level).data() + row.row * n_, n_,
+                    hierarchy.C_span(row.level) + row.row, 1, y_.data(),
+                    &value);
+  const double bound = side == Side::kUpper
+                           ? hierarchy.upper(row.level)[row.row]
+                           : hierarchy.lower(row.level)[row.row];
+  const double inside = side == Side::kUpper ? bound - value : value - bound;
+  const double size =
+      problem.norm(row.level, row.row) * kernels::Largest(y_.data(), n_) +
+      std::abs(bound);
+  return inside > tolerances::kZeroSlope * size;
+}
+
+}  // namespace poise

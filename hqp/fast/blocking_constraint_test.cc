@@ -1,0 +1,159 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+// Tests of the steps of ActiveSetSearch in a search that goes on from another y.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "poise/hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/working_set_problem.h"
+#include "poise/hqp/hierarchy.h"
+#include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solution.h"
+#include "poise/tests/util/tolerance.h"
+
+namespace poise {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A search that goes on from y = 0, although the working set is another one.
+class GoingOn {
+ public:
+  GoingOn(const Hierarchy& hierarchy,
+          const std::vector<LevelCapacity>& capacity,
+          const std::vector<std::vector<Side>>& side)
+      : hierarchy_(hierarchy),
+        problem_(hierarchy.num_variables(), capacity),
+        search_(hierarchy.num_variables(), capacity),
+        side_(side) {
+    int failed;
+    EXPECT_EQ(problem_.Read(hierarchy, &failed), Status::kOptimal);
+    search_.Stop(hierarchy, problem_, &side_);
+    side_ = side;
+  }
+  // Returns whether so many iterations suffice.
+  bool Search(int max_iterations) {
+    const std::function<double()> no_clock;
+    Budget budget({max_iterations}, &no_clock);
+    return search_.AllAtOnce(hierarchy_, max_iterations, &budget, &problem_,
+                             &side_);
+  }
+  Eigen::VectorXd y() const {
+    return Eigen::VectorXd::Map(search_.y().data(), search_.y().size());
+  }
+  Side side(int level, int i) const { return side_[level][i]; }
+
+ private:
+  const Hierarchy& hierarchy_;
+  WorkingSetProblem problem_;
+  ActiveSetSearch search_;
+  std::vector<std::vector<Side>> side_;
+};
+
+// The rows y_0 <= 2, y_1 <= 2 and y_0 + y_1 <= 3, of which the first two are in the
+// working set, and the target (5, 5). The step towards (2, 2) stops at the third row,
+// which depends on the other two. If all three were kept, y would go to the point that
+// violates each of them least, (5/3, 5/3).
+TEST(BlockingConstraint, ReplacesARowThatYDoesNotTouch) {
+  const std::vector<LevelCapacity> capacity{{0, 3}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  InequalityBlock rows = hierarchy.AddInequalities(0, 3);
+  rows.C << 1, 0, 0, 1, 1, 1;
+  rows.lower.setConstant(-kInfinity);
+  rows.upper << 2, 2, 3;
+  EqualityBlock target = hierarchy.AddEqualities(1, 2);
+  target.B.setIdentity();
+  target.b.setConstant(-5);
+  bool is_complete = false;
+  for (int iterations = 1; !is_complete; ++iterations) {
+    ASSERT_LE(iterations, 10);  // It needs 4.
+    GoingOn search(hierarchy, capacity,
+                   {{Side::kUpper, Side::kUpper, Side::kNone}, {}});
+    is_complete = search.Search(iterations);
+    EXPECT_LE(search.y().sum(), 3 + Rounding(3, 3)) << iterations;
+    if (!is_complete) continue;
+    EXPECT_NEAR((search.y() - Eigen::Vector2d(1.5, 1.5)).norm(), 0,
+                Rounding(3, 3));
+    EXPECT_EQ(search.side(0, 0), Side::kNone);
+    EXPECT_EQ(search.side(0, 1), Side::kNone);
+    EXPECT_EQ(search.side(0, 2), Side::kUpper);
+  }
+}
+
+// y = 0 is inside all limits, and so are the y of all later iterations, whatever rows of
+// the working set are strictly inside their bound.
+TEST(BlockingConstraint, KeepsTheLimitsThatYMeets) {
+  constexpr int kVariables = 8, kLimits = 24, kTask = 3;
+  const std::vector<LevelCapacity> capacity{
+      {0, kLimits}, {kTask, 0}, {kVariables, 0}};
+  std::mt19937 numbers(1);
+  std::normal_distribution<double> normal;
+  int stopped = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    SCOPED_TRACE(trial);
+    Hierarchy hierarchy(kVariables, capacity);
+    InequalityBlock limits = hierarchy.AddInequalities(0, kLimits);
+    EqualityBlock task = hierarchy.AddEqualities(1, kTask);
+    for (double& entry : limits.C.reshaped()) entry = normal(numbers);
+    for (double& entry : task.B.reshaped()) entry = normal(numbers);
+    limits.lower.setConstant(-1);
+    limits.upper.setConstant(1);
+    for (double& entry : task.b) entry = 5 * normal(numbers);
+    EqualityBlock norm = hierarchy.AddEqualities(2, kVariables);
+    norm.B.setIdentity();
+    // Fewer rows than variables are independent.
+    std::vector<std::vector<Side>> side{
+        std::vector<Side>(kLimits, Side::kNone), {}, {}};
+    for (int i = 0; i < kVariables - 1; ++i) {
+      side[0][i] = normal(numbers) > 0 ? Side::kUpper : Side::kLower;
+    }
+    bool is_complete = false;
+    for (int iterations = 1; !is_complete; ++iterations) {
+      ASSERT_LE(iterations, 200);  // They need 40 at most.
+      GoingOn search(hierarchy, capacity, side);
+      is_complete = search.Search(iterations);
+      stopped += !is_complete;
+      const Eigen::VectorXd y = search.y();
+      // Rows are 3 long. The condition of eight of them is below 1e5.
+      ASSERT_LE((hierarchy.C(0) * y).cwiseAbs().maxCoeff(),
+                1 + Rounding(3 * (1 + y.norm()), kVariables, 1e5))
+          << iterations;
+      if (!is_complete) continue;
+      Cascade cascade(kVariables, capacity);
+      Solution reference(kVariables, capacity);
+      ASSERT_EQ(cascade.Solve(hierarchy, &reference), Status::kOptimal);
+      EXPECT_LE((y - reference.y).norm(),
+                Rounding(1 + y.norm(), kVariables, 1e5));
+    }
+  }
+  EXPECT_GT(stopped, 1000);
+}
+
+// y = 0 violates 1 <= y, which is not in the working set. This bound blocks a step that
+// ends at 0.5, but not one that ends at 2.
+TEST(BlockingConstraint, AddsABoundThatIsViolatedAtBothEnds) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
+  for (const double target : {0.5, 2.0}) {
+    SCOPED_TRACE(target);
+    Hierarchy hierarchy(1, capacity);
+    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+    bound.C(0, 0) = 1;
+    bound.lower[0] = 1;
+    bound.upper[0] = kInfinity;
+    EqualityBlock task = hierarchy.AddEqualities(1, 1);
+    task.B(0, 0) = 1;
+    task.b[0] = -target;
+    GoingOn search(hierarchy, capacity, {{Side::kNone}, {}});
+    ASSERT_TRUE(search.Search(10));  // It needs 3.
+    EXPECT_EQ(search.y()[0], std::max(target, 1.0));
+    EXPECT_EQ(search.side(0, 0), target < 1 ? Side::kLower : Side::kNone);
+  }
+}
+
+}  // namespace
+}  // namespace poise
