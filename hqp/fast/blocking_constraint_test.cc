@@ -85,10 +85,10 @@ TEST(BlockingConstraint, ReplacesARowThatYDoesNotTouch) {
   }
 }
 
-// y = 0 is inside all limits, and so are the y of all later iterations, whatever rows of
-// the working set are strictly inside their bound.
-TEST(BlockingConstraint, KeepsTheLimitsThatYMeets) {
-  constexpr int kVariables = 8, kLimits = 24, kTask = 3;
+// y = 0 is inside most limits, and violates four of them. It never violates them more,
+// whatever rows of the working set are strictly inside their bound.
+TEST(BlockingConstraint, NeverViolatesLimitsMore) {
+  constexpr int kVariables = 8, kLimits = 24, kViolated = 4, kTask = 3;
   const std::vector<LevelCapacity> capacity{
       {0, kLimits}, {kTask, 0}, {kVariables, 0}};
   std::mt19937 numbers(1);
@@ -103,6 +103,7 @@ TEST(BlockingConstraint, KeepsTheLimitsThatYMeets) {
     for (double& entry : task.B.reshaped()) entry = normal(numbers);
     limits.lower.setConstant(-1);
     limits.upper.setConstant(1);
+    limits.lower.tail(kViolated).setConstant(0.1);
     for (double& entry : task.b) entry = 5 * normal(numbers);
     EqualityBlock norm = hierarchy.AddEqualities(2, kVariables);
     norm.B.setIdentity();
@@ -113,16 +114,22 @@ TEST(BlockingConstraint, KeepsTheLimitsThatYMeets) {
       side[0][i] = normal(numbers) > 0 ? Side::kUpper : Side::kLower;
     }
     bool is_complete = false;
+    double last = kInfinity;
     for (int iterations = 1; !is_complete; ++iterations) {
       ASSERT_LE(iterations, 200);  // They need 40 at most.
       GoingOn search(hierarchy, capacity, side);
       is_complete = search.Search(iterations);
       stopped += !is_complete;
       const Eigen::VectorXd y = search.y();
+      const Eigen::VectorXd value = hierarchy.C(0) * y;
+      const double cost = (value - hierarchy.upper(0))
+                              .cwiseMax(hierarchy.lower(0) - value)
+                              .cwiseMax(0)
+                              .squaredNorm();
       // Rows are 3 long. The condition of eight of them is below 1e5.
-      ASSERT_LE((hierarchy.C(0) * y).cwiseAbs().maxCoeff(),
-                1 + Rounding(3 * (1 + y.norm()), kVariables, 1e5))
+      ASSERT_LE(cost, last + Rounding(3 * (1 + y.norm()), kVariables, 1e5))
           << iterations;
+      last = cost;
       if (!is_complete) continue;
       Cascade cascade(kVariables, capacity);
       Solution reference(kVariables, capacity);
@@ -134,25 +141,41 @@ TEST(BlockingConstraint, KeepsTheLimitsThatYMeets) {
   EXPECT_GT(stopped, 1000);
 }
 
-// y = 0 violates 1 <= y, which is not in the working set. This bound blocks a step that
-// ends at 0.5, but not one that ends at 2.
+// y = 0 violates y_0 >= 1, which is not in the working set. The step towards the target
+// (2, 3) meets this bound and stops at y_1 <= 1; the bound is not added.
+TEST(BlockingConstraint, DoesNotAddABoundThatTheStepMeets) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+  bounds.C.setIdentity();
+  bounds.lower << 1, -kInfinity;
+  bounds.upper << kInfinity, 1;
+  EqualityBlock task = hierarchy.AddEqualities(1, 2);
+  task.B << 1, 1, 1, -1;
+  task.b << -5, 1;
+  GoingOn search(hierarchy, capacity, {{Side::kNone, Side::kNone}, {}});
+  // One iteration finds the target, one stops at the bound of y_1, one goes to the
+  // optimum, and one solves for the diagonal levels.
+  EXPECT_TRUE(search.Search(4));
+  EXPECT_NEAR((search.y() - Eigen::Vector2d(2, 1)).norm(), 0, Rounding(3, 2));
+}
+
+// As before, but the target is (0.5, 0): the step does not meet the bound, which blocks at
+// once.
 TEST(BlockingConstraint, AddsABoundThatIsViolatedAtBothEnds) {
-  const std::vector<LevelCapacity> capacity{{0, 1}, {1, 0}};
-  for (const double target : {0.5, 2.0}) {
-    SCOPED_TRACE(target);
-    Hierarchy hierarchy(1, capacity);
-    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
-    bound.C(0, 0) = 1;
-    bound.lower[0] = 1;
-    bound.upper[0] = kInfinity;
-    EqualityBlock task = hierarchy.AddEqualities(1, 1);
-    task.B(0, 0) = 1;
-    task.b[0] = -target;
-    GoingOn search(hierarchy, capacity, {{Side::kNone}, {}});
-    ASSERT_TRUE(search.Search(10));  // It needs 3.
-    EXPECT_EQ(search.y()[0], std::max(target, 1.0));
-    EXPECT_EQ(search.side(0, 0), target < 1 ? Side::kLower : Side::kNone);
-  }
+  const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 1, 0;
+  bound.lower[0] = 1;
+  bound.upper[0] = kInfinity;
+  EqualityBlock task = hierarchy.AddEqualities(1, 2);
+  task.B << 1, 1, 1, -1;
+  task.b << -0.5, -0.5;
+  GoingOn search(hierarchy, capacity, {{Side::kNone}, {}});
+  ASSERT_TRUE(search.Search(10));  // It needs 4.
+  EXPECT_NEAR((search.y() - Eigen::Vector2d(1, 0)).norm(), 0, Rounding(1, 2));
+  EXPECT_EQ(search.side(0, 0), Side::kLower);
 }
 
 }  // namespace
