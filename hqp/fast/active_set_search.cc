@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/tolerances.h"
@@ -106,8 +105,8 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   return PathEnd::kTooLong;
 }
 
-// Searches from the optimum of the working set, for which `problem` is solved, or from
-// y, if it violates fewer rows.
+// Searches from the optimum of the working set, for which `problem` is solved, or from y,
+// see AllAtOnce().
 bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
                                         Budget* budget,
                                         WorkingSetProblem* problem,
@@ -150,6 +149,7 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
                                   std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   num_together_ = 0;
+  goes_on_ = false;
   std::fill(y_.begin(), y_.end(), 0);
   for (std::vector<Side>& level : completed_) {
     std::fill(level.begin(), level.end(), Side::kNone);
@@ -299,10 +299,12 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
                            std::vector<std::vector<Side>>* side) {
   goes_on_ = true;
   if (path_.is_paused()) return;
+  const double largest = kernels::Largest(y_.data(), n_);
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       Side& at = (*side)[level][i];
-      if (at != Side::kNone && IsInside(hierarchy, problem, {level, i}, at)) {
+      if (at != Side::kNone &&
+          IsInside(hierarchy, problem, {level, i}, at, largest)) {
         at = Side::kNone;
       }
     }
@@ -334,7 +336,7 @@ bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
                               std::vector<std::vector<Side>>* side) {
   const RowIndex added = StepToBlockingConstraint(hierarchy, *problem, side);
   if (added.level < 0) return RemoveConstraints(level, problem, side);
-  if (goes_on_) MakeWay(hierarchy, added, problem, side);
+  if (goes_on_) RemoveDependentRow(hierarchy, added, problem, side);
   return true;
 }
 

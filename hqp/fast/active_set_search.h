@@ -18,7 +18,7 @@ namespace poise {
 /// optimum, or if the path is too long. See README.md.
 ///
 /// Invariant of the primal method: outside the working set, y violates no row by
-/// more than rounding.
+/// more than rounding, except in a search that goes on from another y.
 /// A step goes from y towards the optimum of the working set, and the first
 /// blocking constraint is added to the working set. At that optimum, rows
 /// strictly inside their bound are removed. If there is none, the row with the
@@ -31,7 +31,8 @@ class ActiveSetSearch {
   /// Searches on all levels at once, from the working set `side`. Returns false
   /// if the budget, or `limit` iterations of it, did not suffice. The primal method
   /// starts from the optimum of this working set, or from y() if y() violates fewer
-  /// rows. Rows violated there are added to the working set.
+  /// rows, or is not worse if the search goes on. Rows violated there are added to the
+  /// working set, at once or by later steps.
   bool AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
                  WorkingSetProblem* problem,
                  std::vector<std::vector<Side>>* side);
@@ -85,7 +86,9 @@ class ActiveSetSearch {
   struct Blocking {
     Side side = Side::kNone;  ///< kNone: the row does not block.
     double length = 1;        ///< Part of the step up to its bound.
-    double steepness = 0;  ///< Slope, divided by the sum of absolute entries.
+    /// Slope, or the violation at the end of the step if the row blocks at once; divided
+    /// by the sum of absolute entries.
+    double excess = 0;
   };
 
   void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
@@ -115,11 +118,11 @@ class ActiveSetSearch {
   Blocking FindBlocking(const Hierarchy& hierarchy,
                         const WorkingSetProblem& problem, RowIndex row,
                         Side side, double noise) const;
-  void MakeWay(const Hierarchy& hierarchy, RowIndex added,
-               WorkingSetProblem* problem,
-               std::vector<std::vector<Side>>* side);
+  void RemoveDependentRow(const Hierarchy& hierarchy, RowIndex added,
+                          WorkingSetProblem* problem,
+                          std::vector<std::vector<Side>>* side);
   bool IsInside(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
-                RowIndex row, Side side) const;
+                RowIndex row, Side side, double largest) const;
   bool RemoveConstraints(int level, WorkingSetProblem* problem,
                          std::vector<std::vector<Side>>* side);
   void FreezeViolated(int level, const WorkingSetProblem& problem,
@@ -131,10 +134,10 @@ class ActiveSetSearch {
   /// Optimum of the working set with which the last solve began.
   std::vector<double> set_optimum_;
   std::vector<double> step_, value_, slope_;
-  std::vector<double> factor_;  ///< By leading row, see MakeWay().
+  std::vector<double> factor_;  ///< By leading row, see RemoveDependentRow().
   RemovalLimits removals_;
-  /// The primal method goes on from the y of a search that was stopped, or of a path
-  /// that was given up. This y may be strictly inside bounds of the working set.
+  /// Whether the primal method goes on from the y of a search that was stopped, or of a
+  /// path that was given up. This y may be strictly inside bounds of the working set.
   bool goes_on_ = false;
   /// Iterations left that may remove rows together, see RemoveConstraints().
   int num_together_ = 0;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// ActiveSetSearch: the step to a blocking constraint.
+// ActiveSetSearch: steps up to a blocking constraint, and the row that this one replaces.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,8 @@
 namespace poise {
 
 // Moves y towards the optimum of the working set, up to the first bound outside
-// the working set, and adds that bound to it. Among bounds at equal distance,
-// the steepest is added. Returns the row of this bound, or no row if there is none.
+// the working set, and adds that bound to it. Among bounds at equal distance, the one of
+// the largest excess is added. Returns the row of this bound, or no row if there is none.
 RowIndex ActiveSetSearch::StepToBlockingConstraint(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     std::vector<std::vector<Side>>* side) {
@@ -33,7 +33,7 @@ RowIndex ActiveSetSearch::StepToBlockingConstraint(
                                         (*side)[level][i], noise);
       if (row.length < first.length ||
           (row.length == first.length && row.length < 1 &&
-           row.steepness > first.steepness)) {
+           row.excess > first.excess)) {
         first = row;
         added = {level, i};
       }
@@ -55,7 +55,7 @@ RowIndex ActiveSetSearch::StepToBlockingConstraint(
 
 // Finds where a step blocks at a row, whose side in the working set is `side`. In a search
 // that goes on, a bound that y violates at the start and at the end of the step blocks at
-// once; in others, such rows are in the working set from the start.
+// once. In other searches, such rows are in the working set from the start.
 // pre: value_ and slope_ are those of the row's level.
 ActiveSetSearch::Blocking ActiveSetSearch::FindBlocking(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem, RowIndex row,
@@ -64,15 +64,14 @@ ActiveSetSearch::Blocking ActiveSetSearch::FindBlocking(
   const double norm = problem.norm(row.level, row.row);
   const double upper = hierarchy.upper(row.level)[row.row];
   const double lower = hierarchy.lower(row.level)[row.row];
-  if (!removals_.MayChange(row)) return {};
+  if (norm == 0 || !removals_.MayChange(row)) return {};
   if (goes_on_ && (value > upper || value < lower)) {
     const Side violated = value > upper ? Side::kUpper : Side::kLower;
     const double start = value > upper ? value - upper : lower - value;
     const double end = value > upper ? start + slope : start - slope;
     const double rounding =
-        noise * norm +
-        tolerances::kZeroSlope *
-            (std::abs(value) + norm * kernels::Largest(y_.data(), n_));
+        norm *
+        (noise + 2 * tolerances::kZeroSlope * kernels::Largest(y_.data(), n_));
     if (side != violated && std::min(start, end) > rounding) {
       return {violated, 0, end / norm};
     }
@@ -83,30 +82,35 @@ ActiveSetSearch::Blocking ActiveSetSearch::FindBlocking(
   return {towards, std::max(gap / slope, 0.0), std::abs(slope) / norm};
 }
 
-// Removes a row from the working set if the row that a step has added depends on others. A
-// step along which the rows of the working set do not change has no slope on such a row.
-// So y does not yet meet one of these rows, and this one is removed, if it is strictly
-// inside its bound. Otherwise the optimum would violate a level that y does not
-// violate. Rows of levels above stay. At the next optimum, the removed row is inside its
-// bound.
-void ActiveSetSearch::MakeWay(const Hierarchy& hierarchy, RowIndex added,
-                              WorkingSetProblem* problem,
-                              std::vector<std::vector<Side>>* side) {
+// Removes a row from the working set if the row that a step has added depends on others.
+// If y is at the bounds of the working set, a step does not change its rows, so it has no
+// slope on a row that depends on them. In a search that goes on, y may be strictly inside
+// some of these bounds. The step then changes their rows, and it can be blocked by a row
+// that depends on them. With both, the level would be contradictory, and the next optimum
+// would violate rows that y does not violate. So this function removes a row of which y is
+// strictly inside the bound, and of which the next optimum is inside as well: the
+// combination has a positive factor for it, if factors count towards the bounds. Lower
+// levels come first.
+void ActiveSetSearch::RemoveDependentRow(const Hierarchy& hierarchy,
+                                         RowIndex added,
+                                         WorkingSetProblem* problem,
+                                         std::vector<std::vector<Side>>* side) {
   const double* row = hierarchy.C(added.level).data() + added.row * n_;
   if (!problem->FindCombination(row, factor_.data())) return;
   const int rows = problem->leading().num_rows();
   const double rounding =
       tolerances::kZeroFactor * kernels::Largest(factor_.data(), rows);
+  const double largest_y = kernels::Largest(y_.data(), n_);
   RowIndex removed;
   double largest = 0;
   for (int a = 0; a < rows; ++a) {
     const RowIndex index = {problem->row(a).level, problem->row(a).index};
-    if (!problem->row(a).is_inequality || index.level < added.level) continue;
+    if (!problem->row(a).is_inequality) continue;
     const Side at = (*side)[index.level][index.row];
     const bool is_same_side = at == (*side)[added.level][added.row];
     const double factor = is_same_side ? factor_[a] : -factor_[a];
     if (factor <= rounding || index == added || !removals_.MayChange(index) ||
-        !IsInside(hierarchy, *problem, index, at)) {
+        !IsInside(hierarchy, *problem, index, at, largest_y)) {
       continue;
     }
     if (index.level > removed.level ||
@@ -120,10 +124,11 @@ void ActiveSetSearch::MakeWay(const Hierarchy& hierarchy, RowIndex added,
   removals_.CountRemoval(removed);
 }
 
-// Returns whether y is strictly inside the bound of a row.
+// Returns whether y, whose largest entry is `largest`, is strictly inside the bound of a
+// row.
 bool ActiveSetSearch::IsInside(const Hierarchy& hierarchy,
                                const WorkingSetProblem& problem, RowIndex row,
-                               Side side) const {
+                               Side side, double largest) const {
   double value;
   kernels::SpanDots(hierarchy.C(row.level).data() + row.row * n_, n_,
                     hierarchy.C_span(row.level) + row.row, 1, y_.data(),
@@ -133,8 +138,7 @@ bool ActiveSetSearch::IsInside(const Hierarchy& hierarchy,
                            : hierarchy.lower(row.level)[row.row];
   const double inside = side == Side::kUpper ? bound - value : value - bound;
   const double size =
-      problem.norm(row.level, row.row) * kernels::Largest(y_.data(), n_) +
-      std::abs(bound);
+      problem.norm(row.level, row.row) * largest + std::abs(bound);
   return inside > tolerances::kZeroSlope * size;
 }
 

@@ -14,6 +14,7 @@
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solution.h"
+#include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/tolerance.h"
 
 namespace poise {
@@ -40,8 +41,11 @@ class GoingOn {
   bool Search(int max_iterations) {
     const std::function<double()> no_clock;
     Budget budget({max_iterations}, &no_clock);
-    return search_.AllAtOnce(hierarchy_, max_iterations, &budget, &problem_,
-                             &side_);
+    const CountMalloc count;
+    const bool is_complete = search_.AllAtOnce(hierarchy_, max_iterations,
+                                               &budget, &problem_, &side_);
+    EXPECT_EQ(count.allocations(), 0);
+    return is_complete;
   }
   Eigen::VectorXd y() const {
     return Eigen::VectorXd::Map(search_.y().data(), search_.y().size());
@@ -59,7 +63,7 @@ class GoingOn {
 // working set, and the target (5, 5). The step towards (2, 2) stops at the third row,
 // which depends on the other two. If all three were kept, y would go to the point that
 // violates each of them least, (5/3, 5/3).
-TEST(BlockingConstraint, ReplacesARowThatYDoesNotTouch) {
+TEST(BlockingConstraint, ReplacesARowThatYIsStrictlyInside) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
   InequalityBlock rows = hierarchy.AddInequalities(0, 3);
@@ -85,51 +89,56 @@ TEST(BlockingConstraint, ReplacesARowThatYDoesNotTouch) {
   }
 }
 
-// y = 0 is inside most limits, and violates four of them. It never violates them more,
-// whatever rows of the working set are strictly inside their bound.
+// y = 0 is inside most limits of two levels, and violates four of the first. It never gets
+// worse, whichever rows of an independent working set are strictly inside their bound.
 TEST(BlockingConstraint, NeverViolatesLimitsMore) {
   constexpr int kVariables = 8, kLimits = 24, kViolated = 4, kTask = 3;
   const std::vector<LevelCapacity> capacity{
-      {0, kLimits}, {kTask, 0}, {kVariables, 0}};
+      {0, kLimits}, {0, kLimits}, {kTask, 0}, {kVariables, 0}};
   std::mt19937 numbers(1);
   std::normal_distribution<double> normal;
   int stopped = 0;
   for (int trial = 0; trial < 100; ++trial) {
     SCOPED_TRACE(trial);
     Hierarchy hierarchy(kVariables, capacity);
-    InequalityBlock limits = hierarchy.AddInequalities(0, kLimits);
-    EqualityBlock task = hierarchy.AddEqualities(1, kTask);
-    for (double& entry : limits.C.reshaped()) entry = normal(numbers);
-    for (double& entry : task.B.reshaped()) entry = normal(numbers);
-    limits.lower.setConstant(-1);
-    limits.upper.setConstant(1);
-    limits.lower.tail(kViolated).setConstant(0.1);
-    for (double& entry : task.b) entry = 5 * normal(numbers);
-    EqualityBlock norm = hierarchy.AddEqualities(2, kVariables);
-    norm.B.setIdentity();
     // Fewer rows than variables are independent.
-    std::vector<std::vector<Side>> side{
-        std::vector<Side>(kLimits, Side::kNone), {}, {}};
-    for (int i = 0; i < kVariables - 1; ++i) {
-      side[0][i] = normal(numbers) > 0 ? Side::kUpper : Side::kLower;
+    std::vector<std::vector<Side>> side(4);
+    for (const int level : {0, 1}) {
+      InequalityBlock limits = hierarchy.AddInequalities(level, kLimits);
+      for (double& entry : limits.C.reshaped()) entry = normal(numbers);
+      limits.lower.setConstant(-1);
+      limits.upper.setConstant(1);
+      if (level == 0) limits.lower.tail(kViolated).setConstant(0.1);
+      side[level].resize(kLimits, Side::kNone);
+      for (int i = 0; i < kVariables / 2 - level; ++i) {
+        side[level][i] = normal(numbers) > 0 ? Side::kUpper : Side::kLower;
+      }
     }
+    EqualityBlock task = hierarchy.AddEqualities(2, kTask);
+    for (double& entry : task.B.reshaped()) entry = normal(numbers);
+    for (double& entry : task.b) entry = 5 * normal(numbers);
+    hierarchy.AddEqualities(3, kVariables).B.setIdentity();
     bool is_complete = false;
-    double last = kInfinity;
+    double last[] = {kInfinity, kInfinity};
     for (int iterations = 1; !is_complete; ++iterations) {
-      ASSERT_LE(iterations, 200);  // They need 40 at most.
+      ASSERT_LE(iterations, 200);  // They need 60 at most.
       GoingOn search(hierarchy, capacity, side);
       is_complete = search.Search(iterations);
       stopped += !is_complete;
       const Eigen::VectorXd y = search.y();
-      const Eigen::VectorXd value = hierarchy.C(0) * y;
-      const double cost = (value - hierarchy.upper(0))
-                              .cwiseMax(hierarchy.lower(0) - value)
-                              .cwiseMax(0)
-                              .squaredNorm();
-      // Rows are 3 long. The condition of eight of them is below 1e5.
-      ASSERT_LE(cost, last + Rounding(3 * (1 + y.norm()), kVariables, 1e5))
-          << iterations;
-      last = cost;
+      // Rows are 3 long. The condition of eight of them is usually below 1e5.
+      const double rounding = Rounding(3 * (1 + y.norm()), kVariables, 1e5);
+      for (const int level : {0, 1}) {
+        const Eigen::VectorXd value = hierarchy.C(level) * y;
+        const double cost = (value - hierarchy.upper(level))
+                                .cwiseMax(hierarchy.lower(level) - value)
+                                .cwiseMax(0)
+                                .squaredNorm();
+        const bool is_better = cost < last[level] - rounding;
+        ASSERT_LE(cost, last[level] + rounding) << iterations;
+        last[level] = cost;
+        if (is_better) last[1] = kInfinity;
+      }
       if (!is_complete) continue;
       Cascade cascade(kVariables, capacity);
       Solution reference(kVariables, capacity);
@@ -139,6 +148,46 @@ TEST(BlockingConstraint, NeverViolatesLimitsMore) {
     }
   }
   EXPECT_GT(stopped, 1000);
+}
+
+// The row y <= 2 of level 0 is in the working set, and the step towards it stops at y <= 1
+// of level 1. If both were kept, y would go to 2, and level 1 would be violated.
+TEST(BlockingConstraint, ReplacesARowOfALevelAbove) {
+  const std::vector<LevelCapacity> capacity{{0, 1}, {0, 1}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  for (const int level : {0, 1}) {
+    InequalityBlock row = hierarchy.AddInequalities(level, 1);
+    row.C(0, 0) = 1;
+    row.lower[0] = -kInfinity;
+    row.upper[0] = 2 - level;
+  }
+  EqualityBlock target = hierarchy.AddEqualities(2, 1);
+  target.B(0, 0) = 1;
+  target.b[0] = -5;
+  bool is_complete = false;
+  for (int iterations = 1; !is_complete; ++iterations) {
+    ASSERT_LE(iterations, 10);  // It needs 3.
+    GoingOn search(hierarchy, capacity, {{Side::kUpper}, {Side::kNone}, {}});
+    is_complete = search.Search(iterations);
+    EXPECT_LE(search.y()[0], 1) << iterations;
+  }
+}
+
+// Rows of zeros whose bounds exclude 0 cannot be met, and block no step.
+TEST(BlockingConstraint, IgnoresRowsOfZeros) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};
+  Hierarchy hierarchy(1, capacity);
+  InequalityBlock zero = hierarchy.AddInequalities(0, 2);
+  zero.C << 0, 1;
+  zero.lower << 1, -kInfinity;
+  zero.upper << 2, 1;
+  EqualityBlock target = hierarchy.AddEqualities(1, 1);
+  target.B(0, 0) = 1;
+  target.b[0] = -5;
+  GoingOn search(hierarchy, capacity, {{Side::kNone, Side::kNone}, {}});
+  EXPECT_TRUE(search.Search(10));
+  EXPECT_EQ(search.side(0, 0), Side::kNone);
+  EXPECT_EQ(search.y()[0], 1);
 }
 
 // y = 0 violates y_0 >= 1, which is not in the working set. The step towards the target
@@ -157,6 +206,7 @@ TEST(BlockingConstraint, DoesNotAddABoundThatTheStepMeets) {
   // One iteration finds the target, one stops at the bound of y_1, one goes to the
   // optimum, and one solves for the diagonal levels.
   EXPECT_TRUE(search.Search(4));
+  EXPECT_EQ(search.side(0, 0), Side::kNone);
   EXPECT_NEAR((search.y() - Eigen::Vector2d(2, 1)).norm(), 0, Rounding(3, 2));
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "poise/hqp/fast/parametric_search.h"
+#include "poise/hqp/hierarchy.h"
 #include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solution.h"
 #include "poise/tests/util/path_between.h"
 
 namespace poise {

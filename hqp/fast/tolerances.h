@@ -31,10 +31,10 @@ constexpr double kSolutionRounding = 1e-13;
 /// 20 instead of 18 of 3000 hierarchies with rows from 1e-3 to 1e6 fail.
 constexpr double kZeroMultiplier = 1e-13;
 
-/// Search: a row that makes way for another one has at least this part of the largest
-/// factor of their combination. The combination leaves out a part of 1e-3 of the row
-/// (kIndependentPart), and the row that makes way must not depend on that part. Chosen:
-/// 1e-7 and 1e-2 change the worst solves of falls by factors from 0.9 to 1.9.
+/// Search: a factor of a combination of rows below this part of the largest one is zero.
+/// A row that is removed for a tiny factor would be far inside its bound at the next
+/// optimum. Chosen: 1e-7 and 1e-2 change the worst solves of falls by factors from 0.9 to
+/// 1.9 (docs/notebook/2026-11-29-dependent-rows.md).
 constexpr double kZeroFactor = 1e-4;
 
 /// Input: a row is zero if its weight times its squared norm is below this. The
@@ -54,7 +54,8 @@ constexpr double kReorthogonalize = 0.5;
 
 /// Factorisation: least part of a new row that is independent of the others, if
 /// the row is to be appended by an update. An update then loses at most three
-/// digits; below that the level is factored anew. Also for the diagonal levels: least
+/// digits; below that the level is factored anew. Also for a combination of rows: the least
+/// part of a row that does not depend on them. Also for the diagonal levels: least
 /// part of a new row of T/d, and least pivot of T_cc after a row was removed. Chosen:
 /// ten times larger or smaller changes one count of 3000 by one, and the time.
 constexpr double kIndependentPart = 1e-3;

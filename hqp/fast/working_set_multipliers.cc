@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// WorkingSetProblem: multipliers, and what else follows from the transposed rows.
+// WorkingSetProblem: multipliers and other combinations of rows.
 #include <algorithm>
 #include <cmath>
 

@@ -163,8 +163,9 @@ class WorkingSetProblem {
   int FindTradeOff(int level, double* trade_off);
 
   /// Finds the factors, by leading row of unit length, with which these rows add up to
-  /// `row`, of num_variables numbers. Returns false if a part of it, kIndependentPart or
-  /// more, is independent of them.
+  /// `row`, of num_variables numbers. Returns false, and leaves `factor` unset, if the part
+  /// of `row` that is independent of them is above kIndependentPart of its length. If they
+  /// depend on each other, the factors are not unique.
   /// pre: SolveLeading(). `factor` has room for all leading rows.
   [[nodiscard]] bool FindCombination(const double* row, double* factor);
 

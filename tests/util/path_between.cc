@@ -19,6 +19,7 @@ PathBetween::PathBetween(int num_variables,
 void PathBetween::Begin(const Hierarchy& hierarchy) {
   Budget budget({kEnough}, &no_clock_);
   Read(hierarchy);
+  search_.ForgetPath();
   FitToBounds(hierarchy, &side_);
   ASSERT_TRUE(
       search_.AllAtOnce(hierarchy, kEnough, &budget, &problem_, &side_));

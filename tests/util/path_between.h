@@ -13,8 +13,8 @@
 
 namespace poise {
 
-/// A path between two hierarchies of the same rows, for tests of ParametricSearch. Each
-/// step expects that nothing is allocated.
+/// A path between two hierarchies of the same rows, for tests of ParametricSearch.
+/// Follow() and MeetLevelsBeforeLast() expect that nothing is allocated.
 class PathBetween {
  public:
   PathBetween(int num_variables, const std::vector<LevelCapacity>& capacity);
