@@ -38,7 +38,6 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
   }
   value_.resize(most);
   slope_.resize(most);
-  factor_.resize(NumRows(capacity));
 }
 
 bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,

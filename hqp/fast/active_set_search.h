@@ -134,7 +134,6 @@ class ActiveSetSearch {
   /// Optimum of the working set with which the last solve began.
   std::vector<double> set_optimum_;
   std::vector<double> step_, value_, slope_;
-  std::vector<double> factor_;  ///< By leading row, see RemoveDependentRow().
   RemovalLimits removals_;
   /// Whether the primal method goes on from the y of a search that was stopped, or of a
   /// path that was given up. This y may be strictly inside bounds of the working set.

@@ -96,10 +96,11 @@ void ActiveSetSearch::RemoveDependentRow(const Hierarchy& hierarchy,
                                          WorkingSetProblem* problem,
                                          std::vector<std::vector<Side>>* side) {
   const double* row = hierarchy.C(added.level).data() + added.row * n_;
-  if (!problem->FindCombination(row, factor_.data())) return;
+  const double* factors = problem->FindCombination(row);
+  if (factors == nullptr) return;
   const int rows = problem->leading().num_rows();
   const double rounding =
-      tolerances::kZeroFactor * kernels::Largest(factor_.data(), rows);
+      tolerances::kZeroFactor * kernels::Largest(factors, rows);
   const double largest_y = kernels::Largest(y_.data(), n_);
   RowIndex removed;
   double largest = 0;
@@ -108,7 +109,7 @@ void ActiveSetSearch::RemoveDependentRow(const Hierarchy& hierarchy,
     if (!problem->row(a).is_inequality) continue;
     const Side at = (*side)[index.level][index.row];
     const bool is_same_side = at == (*side)[added.level][added.row];
-    const double factor = is_same_side ? factor_[a] : -factor_[a];
+    const double factor = is_same_side ? factors[a] : -factors[a];
     if (factor <= rounding || index == added || !removals_.MayChange(index) ||
         !IsInside(hierarchy, *problem, index, at, largest_y)) {
       continue;

@@ -112,7 +112,7 @@ int WorkingSetProblem::FindTradeOff(int level, double* trade_off) {
   return -1;
 }
 
-bool WorkingSetProblem::FindCombination(const double* row, double* factor) {
+const double* WorkingSetProblem::FindCombination(const double* row) {
   const int rank = leading_.rank();
   leading_.Project(row, rank, gradient_.data());
   const double squared = kernels::SquaredNorm(row, n_);
@@ -120,10 +120,10 @@ bool WorkingSetProblem::FindCombination(const double* row, double* factor) {
       squared - kernels::SquaredNorm(gradient_.data(), rank);
   if (independent >
       tolerances::kIndependentPart * tolerances::kIndependentPart * squared) {
-    return false;
+    return nullptr;
   }
-  leading_.SolveDual(leading_.num_levels(), gradient_.data(), factor);
-  return true;
+  leading_.SolveDual(leading_.num_levels(), gradient_.data(), nu_.data());
+  return nu_.data();
 }
 
 double WorkingSetProblem::Multiplier(int a, int level, Side side,

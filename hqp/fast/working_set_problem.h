@@ -163,11 +163,11 @@ class WorkingSetProblem {
   int FindTradeOff(int level, double* trade_off);
 
   /// Finds the factors, by leading row of unit length, with which these rows add up to
-  /// `row`, of num_variables numbers. Returns false, and leaves `factor` unset, if the part
-  /// of `row` that is independent of them is above kIndependentPart of its length. If they
-  /// depend on each other, the factors are not unique.
-  /// pre: SolveLeading(). `factor` has room for all leading rows.
-  [[nodiscard]] bool FindCombination(const double* row, double* factor);
+  /// `row`, of num_variables numbers. Returns null if the part of `row` that is independent
+  /// of them is above kIndependentPart of its length. If they depend on each other, the
+  /// factors are not unique. They are valid until the next call.
+  /// pre: SolveLeading().
+  [[nodiscard]] const double* FindCombination(const double* row);
 
   /// Multiplier of an inequality row in a level's optimality condition.
   /// Positive: binding. Negative: removing the row lowers the cost. Zero if
