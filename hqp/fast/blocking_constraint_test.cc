@@ -190,43 +190,56 @@ TEST(BlockingConstraint, IgnoresRowsOfZeros) {
   EXPECT_EQ(search.y()[0], 1);
 }
 
+// Both signs of y.
+class ViolatedBoundTest : public testing::TestWithParam<int> {
+ protected:
+  // Adds a row `entries` y >= bound, or <= -bound for the other sign.
+  void AddRow(const Eigen::RowVector2d& entries, double bound) {
+    InequalityBlock row = hierarchy_.AddInequalities(0, 1);
+    row.C = entries;
+    row.lower[0] = sign_ > 0 ? bound : -kInfinity;
+    row.upper[0] = sign_ > 0 ? kInfinity : -bound;
+  }
+  void AddTarget(const Eigen::Vector2d& target) {
+    EqualityBlock task = hierarchy_.AddEqualities(1, 2);
+    task.B << 1, 1, 1,
+        -1;  // With unit vectors, the level would be a diagonal one.
+    task.b = -sign_ * task.B * target;
+  }
+
+  const int sign_ = GetParam();
+  const std::vector<LevelCapacity> capacity_{{0, 2}, {2, 0}};
+  Hierarchy hierarchy_{2, capacity_};
+};
+
 // y = 0 violates y_0 >= 1, which is not in the working set. The step towards the target
-// (2, 3) meets this bound and stops at y_1 <= 1; the bound is not added.
-TEST(BlockingConstraint, DoesNotAddABoundThatTheStepMeets) {
-  const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
-  Hierarchy hierarchy(2, capacity);
-  InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
-  bounds.C.setIdentity();
-  bounds.lower << 1, -kInfinity;
-  bounds.upper << kInfinity, 1;
-  EqualityBlock task = hierarchy.AddEqualities(1, 2);
-  task.B << 1, 1, 1, -1;
-  task.b << -5, 1;
-  GoingOn search(hierarchy, capacity, {{Side::kNone, Side::kNone}, {}});
+// (2, 3) meets this bound and stops at -y_1 >= -1; the first bound is not added.
+TEST_P(ViolatedBoundTest, IsNotAddedIfTheStepMeetsIt) {
+  AddRow({1, 0}, 1);
+  AddRow({0, -1}, -1);
+  AddTarget({2, 3});
+  GoingOn search(hierarchy_, capacity_, {{Side::kNone, Side::kNone}, {}});
   // One iteration finds the target, one stops at the bound of y_1, one goes to the
   // optimum, and one solves for the diagonal levels.
   EXPECT_TRUE(search.Search(4));
   EXPECT_EQ(search.side(0, 0), Side::kNone);
-  EXPECT_NEAR((search.y() - Eigen::Vector2d(2, 1)).norm(), 0, Rounding(3, 2));
+  EXPECT_NEAR((search.y() - sign_ * Eigen::Vector2d(2, 1)).norm(), 0,
+              Rounding(3, 2));
 }
 
 // As before, but the target is (0.5, 0): the step does not meet the bound, which blocks at
 // once.
-TEST(BlockingConstraint, AddsABoundThatIsViolatedAtBothEnds) {
-  const std::vector<LevelCapacity> capacity{{0, 1}, {2, 0}};
-  Hierarchy hierarchy(2, capacity);
-  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
-  bound.C << 1, 0;
-  bound.lower[0] = 1;
-  bound.upper[0] = kInfinity;
-  EqualityBlock task = hierarchy.AddEqualities(1, 2);
-  task.B << 1, 1, 1, -1;
-  task.b << -0.5, -0.5;
-  GoingOn search(hierarchy, capacity, {{Side::kNone}, {}});
+TEST_P(ViolatedBoundTest, IsAddedIfTheStepDoesNotMeetIt) {
+  AddRow({1, 0}, 1);
+  AddTarget({0.5, 0});
+  GoingOn search(hierarchy_, capacity_, {{Side::kNone}, {}});
   ASSERT_TRUE(search.Search(10));  // It needs 4.
-  EXPECT_NEAR((search.y() - Eigen::Vector2d(1, 0)).norm(), 0, Rounding(1, 2));
-  EXPECT_EQ(search.side(0, 0), Side::kLower);
+  EXPECT_EQ(search.side(0, 0), sign_ > 0 ? Side::kLower : Side::kUpper);
+  EXPECT_NEAR((search.y() - sign_ * Eigen::Vector2d(1, 0)).norm(), 0,
+              Rounding(1, 2));
 }
+
+INSTANTIATE_TEST_SUITE_P(Signs, ViolatedBoundTest, testing::Values(1, -1));
 
 }  // namespace
 }  // namespace poise
