@@ -13,6 +13,7 @@
 #include "poise/hqp/solution.h"
 #include "poise/hqp/tolerances.h"
 #include "poise/math/rank.h"
+#include "poise/tests/util/path_between.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/tolerance.h"
 
@@ -27,15 +28,6 @@ constexpr double kViolated = 1e-6;
 // Relative tolerance of y. Rounding is multiplied by the square of the
 // condition of such rows, which is up to about 1e4.
 constexpr double kSameY = 1e-6;
-
-std::vector<std::vector<Side>> NoSides(
-    const std::vector<LevelCapacity>& capacity) {
-  std::vector<std::vector<Side>> side;
-  for (const LevelCapacity& level : capacity) {
-    side.emplace_back(level.inequalities, Side::kNone);
-  }
-  return side;
-}
 
 class ActiveSetSearchTest : public testing::TestWithParam<int> {
  protected:

@@ -10,8 +10,8 @@
 namespace poise {
 
 // Moves y towards the optimum of the working set, up to the first bound outside
-// the working set, and adds that bound to it. Among bounds at equal distance, the one of
-// the largest excess is added. Returns the row of this bound, or no row if there is none.
+// the working set, and adds that bound to it. Among bounds at equal distance, this
+// function adds the one of the largest excess. The result is its row, or no row.
 RowIndex ActiveSetSearch::StepToBlockingConstraint(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     std::vector<std::vector<Side>>* side) {

@@ -13,8 +13,9 @@
 namespace poise {
 namespace {
 
-// Most rows that are added or removed ahead in one iteration of a short run. Of 2, 3, 4 and 6, none is
-// best for all recorded sequences (docs/notebook/2026-11-28-groups.md).
+// Most rows that are added ahead in one iteration, or removed ahead in one of a short run.
+// Of 2, 3, 4 and 6, none is best for all recorded sequences
+// (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxAhead = 3;
 
 // Most rows without a multiplier that one iteration removes. One iteration must not take
