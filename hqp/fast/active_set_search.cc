@@ -209,7 +209,7 @@ bool ActiveSetSearch::InitializeAllLevels(
   if (!adds_violated) return true;
   FindViolated(hierarchy, *problem, y_, *side);
   for (int level = 0; level < levels; ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
       if (violated_[level][i] == Side::kNone) continue;
       (*side)[level][i] = violated_[level][i];
     }
@@ -300,7 +300,7 @@ void ActiveSetSearch::Stop(const Hierarchy& hierarchy,
   if (path_.is_paused()) return;
   const double largest = kernels::Largest(y_.data(), n_);
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
       Side& at = (*side)[level][i];
       if (at != Side::kNone &&
           IsInside(hierarchy, problem, {level, i}, at, largest)) {

@@ -170,7 +170,7 @@ bool DiagonalLevels::AppendDirection() {
   for (int i = 0; i < first.row_begin; ++i) {
     double* row = &t_[Index(i)];
     const int pivot = pivot_[i];
-    const double length = std::hypot(row[pivot], added[pivot]);
+    const double length = kernels::Length(row[pivot], added[pivot]);
     Rotate(row[pivot] / length, added[pivot] / length, num_free_, row, added);
     added[pivot] = 0;
   }
@@ -194,7 +194,7 @@ bool DiagonalLevels::RemoveDirection() {
   Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, u);
   Count(rank_, num_free_);
   for (int row = first.row_begin; row + 1 < rank_; ++row) {
-    const double length = std::hypot(u[row], u[row + 1]);
+    const double length = kernels::Length(u[row], u[row + 1]);
     if (length == 0) continue;
     const double c = u[row + 1] / length, s = u[row] / length;
     u[row + 1] = length;
@@ -209,7 +209,7 @@ bool DiagonalLevels::RemoveDirection() {
   double on_moved = u[rank_];
   for (int i = first.row_begin - 1; i >= 0; --i) {
     double* row = &t_[Index(i)];
-    const double length = std::hypot(u[i], on_moved);
+    const double length = kernels::Length(u[i], on_moved);
     const double c = length > 0 ? u[i] / length : 0;
     const double s = length > 0 ? on_moved / length : 1;
     Rotate(c, s, num_free_, row, moved);
@@ -233,7 +233,7 @@ void DiagonalLevels::RotateFactor(int row, double c, double s) {
   Rotate(c, s, i + 1, next, l);
   const double beyond = -s * next[i + 1];
   next[i + 1] *= c;
-  const double diagonal = std::hypot(l[i], beyond);
+  const double diagonal = kernels::Length(l[i], beyond);
   if (diagonal == 0) return;
   const double cosine = l[i] / diagonal, sine = beyond / diagonal;
   l[i] = diagonal;

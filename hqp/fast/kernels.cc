@@ -231,9 +231,19 @@ double AbsoluteSum(const double* x, int n) {
   return POISE_SUM(sum);
 }
 
+POISE_TARGET_CLONES("fma")
 double Largest(const double* x, int n) {
-  double largest = 0;
-  for (int j = 0; j < n; ++j) largest = std::max(largest, std::abs(x[j]));
+  const int whole = n & ~3;
+  Four most = {};
+  int j = 0;
+  for (; j < whole; j += 4) {
+    const Four xj = POISE_LOAD(x + j);
+    const Four size = xj < 0 ? -xj : xj;
+    most = most < size ? size : most;
+  }
+  double largest =
+      std::max(std::max(most[0], most[2]), std::max(most[1], most[3]));
+  for (; j < n; ++j) largest = std::max(largest, std::abs(x[j]));
   return largest;
 }
 

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cmath>
+
 #include "poise/hqp/hierarchy.h"
 
 /// The inner loops of the fast solver, on rows that lie `stride` apart: on the
@@ -59,5 +61,14 @@ double AbsoluteSum(const double* x, int n);
 
 /// max_i |x_i|, or 0 if n = 0.
 double Largest(const double* x, int n);
+
+/// The length of (x, y), as std::hypot() computes it, which takes ten times as long. Only
+/// where squares underflow or overflow, this function calls it.
+inline double Length(double x, double y) {
+  constexpr double kLeast = 1e-280, kMost = 1e280;
+  const double squares = x * x + y * y;
+  return squares > kLeast && squares < kMost ? std::sqrt(squares)
+                                             : std::hypot(x, y);
+}
 
 }  // namespace poise::kernels

@@ -220,5 +220,21 @@ TEST_F(KernelsTest, LargestIsTheLargestMagnitude) {
   }
 }
 
+// Beside long double, also where squares underflow or overflow.
+TEST(Length, IsTheRootOfTheSumOfSquares) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const std::vector<double> parts{0,      1,      -3,   1e-20, 1e-139, 1e-141,
+                                  1e-160, 1e-300, 1e20, 1e139, -1e141, 1e300};
+  for (const double x : parts) {
+    for (const double y : parts) {
+      const long double square_x = static_cast<long double>(x) * x;
+      const long double square_y = static_cast<long double>(y) * y;
+      const auto length = static_cast<double>(std::sqrt(square_x + square_y));
+      EXPECT_NEAR(kernels::Length(x, y), length, 2 * kEpsilon * length)
+          << x << " " << y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace poise

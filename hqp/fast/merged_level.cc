@@ -71,7 +71,7 @@ void LexicographicFactorization::RemoveRow(int a) {
       row[k] = cosine_[k] * x + sine_[k] * y;
       row[k + 1] = cosine_[k] * y - sine_[k] * x;
     }
-    const double length = std::hypot(row[e], row[e + 1]);
+    const double length = kernels::Length(row[e], row[e + 1]);
     cosine_[e] = row[e] / length;
     sine_[e] = row[e + 1] / length;
     row[e] = length;
@@ -161,7 +161,7 @@ void LexicographicFactorization::FixLast(int variable, double entry) {
   double* l = scratch_.data();
   std::copy_n(effective(last), last + 1, l);
   for (int e = last; e > first; --e) {
-    const double length = std::hypot(l[e - 1], l[e]);
+    const double length = kernels::Length(l[e - 1], l[e]);
     cosine_[e] = l[e - 1] / length;
     sine_[e] = l[e] / length;
     l[e - 1] = length;

@@ -25,7 +25,7 @@ void MultiplierWriter::Write(const Hierarchy& hierarchy,
   norm_y_ = solution->y.norm();
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     EvaluateLevel(hierarchy, level, solution);
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
       Side& active = solution->levels[level].active[i];
       active = side[level][i];
       // A row with lower = upper is active at the side that is violated.
@@ -90,7 +90,7 @@ void MultiplierWriter::WriteDiagonalMultipliers(
   const WorkingSetProblem::Multipliers& of = problem.multipliers(level);
   std::fill(remainder_.begin(), remainder_.end(), 0);
   if (of.any) std::copy(of.left.begin(), of.left.end(), remainder_.begin());
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+  for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
     const int j = problem.selected(level, i);
     if (fixed_by(j) >= level) continue;
     remainder_[j] += hierarchy.weight(level)[i] * hierarchy.B(level)(i, j) *
@@ -98,7 +98,7 @@ void MultiplierWriter::WriteDiagonalMultipliers(
   }
   for (int above = num_leading; above < level; ++above) {
     Eigen::VectorXd& to = solution->levels[level].multipliers[above].equality;
-    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+    for (int i = 0, rows = hierarchy.num_equalities(above); i < rows; ++i) {
       const int j = problem.selected(above, i);
       if (remainder_[j] == 0 || fixed_by(j) != above ||
           hierarchy.weight(above)[i] == 0 || hierarchy.B(above)(i, j) == 0) {
@@ -238,7 +238,7 @@ void MultiplierWriter::AddOwnMultipliers(const Hierarchy& hierarchy, int level,
       left += of.multipliers[above].inequality[i] * C.row(i);
     }
   }
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+  for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
     const int j = problem.selected(level, i);
     const double scale = hierarchy.B(level)(i, j);
     if (hierarchy.weight(level)[i] == 0 || scale == 0) continue;

@@ -33,6 +33,12 @@ constexpr int kLongRun = 4;
 constexpr int kLongRemoval = 2 * kLongRun;
 constexpr int kMaxRemovedAhead = 2 * kMaxAhead;
 
+// After so many iterations in a row that add and remove rows in turn, the path is given up.
+// It then goes from vertex to vertex in tiny steps, and the steps of the primal method are
+// longer. With 10 and 14, more robots fall with a budget of 300 us
+// (docs/notebook/2026-11-29-alternations.md).
+constexpr int kMaxAlternations = 12;
+
 }  // namespace
 
 ParametricSearch::ParametricSearch(int num_variables,
@@ -78,6 +84,7 @@ void ParametricSearch::Pause(const Sides& side) {
 // Replaces side_ by `side`. A row whose side differs has no multiplier from then on.
 void ParametricSearch::TakeWorkingSet(const Sides& side) {
   for (size_t level = 0; level < side.size(); ++level) {
+    if (side[level] == side_[level]) continue;
     for (size_t i = 0; i < side[level].size(); ++i) {
       if (side[level][i] == side_[level][i]) continue;
       start_.Remove(static_cast<int>(level), static_cast<int>(i));
@@ -106,7 +113,8 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       y_ = problem->y();
       return true;
     }
-    if (!budget->Take(limit, problem->work())) {
+    if (run.alternations >= kMaxAlternations ||
+        !budget->Take(limit, problem->work())) {
       side_ = *side;
       return false;
     }
@@ -252,7 +260,7 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
   std::array<Blocking, kMaxAhead> next;  // In the order of their times.
   for (int level = 0; level < num_levels; ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
       const Span span = hierarchy.C_span(level)[i];
       if (span.size != 1 || (*side)[level][i] != Side::kNone) continue;
       const double value =
@@ -375,7 +383,7 @@ ParametricSearch::Change ParametricSearch::Add(const Blocking& blocking,
 void FitToBounds(const Hierarchy& hierarchy, ParametricSearch::Sides* side) {
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
       Side& at = (*side)[level][i];
       if (lower[i] == upper[i]) {
         at = Side::kUpper;

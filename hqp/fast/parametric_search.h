@@ -67,7 +67,8 @@ class ParametricSearch {
   /// Follows the path, from the working set `side`, for which `problem` is solved.
   /// Returns whether the optimum has been reached: it is y(), and the solution of
   /// `problem`. If not, because the budget, or `limit` iterations of it, did not
-  /// suffice, `problem` is not solved for the last change of `side`.
+  /// suffice, or because rows were added and removed in turn too often, `problem` is not
+  /// solved for the last change of `side`.
   /// pre: is_known().
   [[nodiscard]] bool Follow(const Hierarchy& hierarchy, int limit,
                             Budget* budget, WorkingSetProblem* problem,
@@ -101,12 +102,16 @@ class ParametricSearch {
     RowIndex removed;
     Side removed_side = Side::kNone;
   };
-  /// The number of last iterations that all added, or all removed, rows.
+  /// The number of last iterations that all added, or all removed, rows, and of those that
+  /// added and removed rows in turn.
   struct Run {
     bool adds;
     int length;
+    int alternations = 0;
     void Count(bool is_addition) {
-      length = is_addition == adds ? length + 1 : 1;
+      const bool goes_on = is_addition == adds;
+      length = goes_on ? length + 1 : 1;
+      alternations = goes_on ? 0 : alternations + 1;
       adds = is_addition;
     }
   };

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
+#include "poise/hqp/solver.h"
 #include "poise/tests/util/path_between.h"
 #include "poise/tests/util/random_hierarchy.h"
 
@@ -189,6 +192,63 @@ TEST_F(ParametricSearchTest, ForgetsThePath) {
   search_.path().Forget();
   EXPECT_FALSE(search_.path().is_known());
   EXPECT_FALSE(search_.path().is_paused());
+}
+
+// A polygon of 40 sides around the unit circle, and a target at a distance of 3 in the
+// direction of the middle of a side. When the target turns, the path goes along the polygon:
+// it adds a side at each corner, and then removes the one before.
+class PolygonTest : public testing::Test {
+ protected:
+  static constexpr int kCorners = 40;
+
+  static Eigen::Vector2d Middle(int i) {
+    // No side is parallel to an axis: such sides are added ahead.
+    const double angle = 0.05 + 2 * M_PI * i / kCorners;
+    return {std::cos(angle), std::sin(angle)};
+  }
+  Hierarchy Towards(int i) const {
+    Hierarchy hierarchy(2, capacity_);
+    InequalityBlock polygon = hierarchy.AddInequalities(0, kCorners);
+    for (int row = 0; row < kCorners; ++row) polygon.C.row(row) = Middle(row);
+    polygon.lower.setConstant(-kInfinity);
+    polygon.upper.setOnes();
+    EqualityBlock task = hierarchy.AddEqualities(1, 2);
+    task.B << 1, 1, 1,
+        -1;  // With unit vectors, the level would be a diagonal one.
+    task.b = -3 * task.B * Middle(i);
+    return hierarchy;
+  }
+
+  const std::vector<LevelCapacity> capacity_{{0, kCorners}, {2, 0}};
+};
+
+TEST_F(PolygonTest, IsGivenUpAfterManyCorners) {
+  for (const int corners : {1, 5, 6, 7, 13}) {
+    SCOPED_TRACE(corners);
+    PathBetween search(2, capacity_);
+    search.Begin(Towards(0));
+    const bool is_optimal = search.Follow(Towards(corners));
+    // Each corner needs two changes. The path may make twelve in turn.
+    EXPECT_EQ(is_optimal, corners <= 6);
+    if (is_optimal) {
+      EXPECT_NEAR((search.y() - Middle(corners)).norm(), 0, 10 * kTolerance);
+    } else {
+      EXPECT_LE(search.iterations(), 12);
+    }
+  }
+}
+
+TEST_F(PolygonTest, IsSolvedAfterThePathIsGivenUp) {
+  for (const double budget : {0., 1.}) {
+    Solver solver(2, capacity_);
+    solver.max_modelled_seconds = budget;
+    Solution solution(2, capacity_);
+    ASSERT_EQ(solver.Solve(Towards(0), &solution), Status::kOptimal);
+    for (const int i : {13, 33, 8, 20}) {
+      ASSERT_EQ(solver.Solve(Towards(i), &solution), Status::kOptimal);
+      EXPECT_NEAR((solution.y - Middle(i)).norm(), 0, 10 * kTolerance);
+    }
+  }
 }
 
 // Changes targets and bounds, some of them enough to change the working set.

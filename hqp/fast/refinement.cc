@@ -105,25 +105,27 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   // only: targets of the diagonal levels may be large, and so may their
   // rounding.
   const int enough = IsUneven() ? 2 : 1;
+  double worst = ComputeRowResiduals(hierarchy);
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    const double worst = ComputeRowResiduals(hierarchy);
     if (pass >= enough && worst <= tolerances::kRefined) break;
+    if (pass >= enough &&
+        MeetsRowsWithZeros(hierarchy, std::max(largest, Size()))) {
+      worst = 0;
+      break;
+    }
     leading_.Correct(row_residual_.data(), change_.data());
     diagonal_.Correct(leading_, change_.data(), to_minimum && pass == 0,
                       y_.data());
+    worst = ComputeRowResiduals(hierarchy);
   }
   largest = std::max(largest, Size());
-  if (ComputeRowResiduals(hierarchy) > tolerances::kRefined) {
+  if (worst > tolerances::kRefined) {
     // Rows that are still not met have rounding where y should be zero. Such
     // entries are set to zero, except those at the target of a diagonal level.
     // All are restored if this more than doubles the residual of a level.
     const double missed = WorstRelativeLevelResidual();
     change_ = y_;
-    for (int j = 0; j < n_; ++j) {
-      if (std::abs(y_[j]) < tolerances::kNegligibleEntry * largest &&
-          !IsAtTarget(j))
-        y_[j] = 0;
-    }
+    (void)ZeroNegligibleEntries(largest);
     ComputeRowResiduals(hierarchy);
     if (WorstRelativeLevelResidual() > 2 * missed) y_ = change_;
     ComputeRowResiduals(hierarchy);
@@ -131,8 +133,37 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
       if (RelativeResidual(a) > tolerances::kRefined)
         ZeroRoundingEntries(hierarchy, Original(hierarchy, rows_[a]));
     }
+    ComputeRowResiduals(hierarchy);
   }
-  UpdateDeficientResiduals(hierarchy);
+  TakeDeficientResiduals();
+}
+
+// Sets the entries of y to zero that are negligible beside `largest`, except those at the
+// target of a diagonal level. Returns whether there was one.
+bool WorkingSetProblem::ZeroNegligibleEntries(double largest) {
+  bool any = false;
+  for (int j = 0; j < n_; ++j) {
+    if (y_[j] != 0 &&
+        std::abs(y_[j]) < tolerances::kNegligibleEntry * largest &&
+        !IsAtTarget(j)) {
+      y_[j] = 0;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Sets negligible entries of y to zero if all rows are then met to rounding, and returns
+// whether they are. If a foot carries no load, its rows have the value zero, and the
+// rounding of other entries keeps them from it in each pass.
+bool WorkingSetProblem::MeetsRowsWithZeros(const Hierarchy& hierarchy,
+                                           double largest) {
+  change_ = y_;
+  if (!ZeroNegligibleEntries(largest)) return false;
+  if (ComputeRowResiduals(hierarchy) <= tolerances::kRefined) return true;
+  y_ = change_;
+  ComputeRowResiduals(hierarchy);
+  return false;
 }
 
 // Returns whether an entry of y is at the target of its diagonal level.
@@ -187,6 +218,11 @@ bool WorkingSetProblem::ZeroRoundingEntries(const Hierarchy& hierarchy,
 // zero.
 void WorkingSetProblem::UpdateDeficientResiduals(const Hierarchy& hierarchy) {
   ComputeRowResiduals(hierarchy);
+  TakeDeficientResiduals();
+}
+
+// UpdateDeficientResiduals() after ComputeRowResiduals().
+void WorkingSetProblem::TakeDeficientResiduals() {
   for (int level = 0; level < num_leading_; ++level) {
     if (!leading_.is_deficient(level)) continue;
     const int first = leading_.first_row(level), end = leading_.end_row(level);

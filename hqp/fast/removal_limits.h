@@ -34,7 +34,7 @@ class RemovalLimits {
   /// are equal.
   void Reset(const Hierarchy& hierarchy, int level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
       left_[level][i] = lower[i] == upper[i] ? kFrozen : kMaxRemovals;
     }
   }

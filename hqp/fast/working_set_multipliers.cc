@@ -126,13 +126,4 @@ const double* WorkingSetProblem::FindCombination(const double* row) {
   return nu_.data();
 }
 
-double WorkingSetProblem::Multiplier(int a, int level, Side side,
-                                     double tolerance) const {
-  const double sign = static_cast<double>(side);
-  if (level == rows_[a].level) return sign * leading_.residual(a);
-  const Multipliers& of = multipliers_[level];
-  if (!of.any || std::abs(of.nu[a]) <= tolerance * of.size) return 0;
-  return sign * of.nu[a];
-}
-
 }  // namespace poise

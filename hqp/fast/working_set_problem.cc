@@ -154,7 +154,7 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   }
   for (int level = num_leading_; level < num_levels; ++level) {
     diagonal_.AddLevel();
-    for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
       const double scale = hierarchy.B(level)(i, selected_[level][i]);
       if (scale == 0) continue;
       diagonal_.Add(selected_[level][i],
@@ -242,7 +242,7 @@ void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
     use(Row{level, i, false, span, Norm(row, span), target}, std::sqrt(weight),
         i);
   }
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+  for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
     if (side[i] == Side::kNone || norm(level, i) == 0) continue;
     use(Inequality(hierarchy, level, i, side[i]), 1, equalities + i);
   }
@@ -348,7 +348,7 @@ int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
 bool WorkingSetProblem::AppendRows(const Hierarchy& hierarchy,
                                    const std::vector<std::vector<Side>>& side,
                                    int level, int* met) {
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+  for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
     if (side[level][i] == factored_[level][i] || norm(level, i) == 0) {
       continue;
     }

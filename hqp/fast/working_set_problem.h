@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -172,7 +173,13 @@ class WorkingSetProblem {
   /// Multiplier of an inequality row in a level's optimality condition.
   /// Positive: binding. Negative: removing the row lowers the cost. Zero if
   /// below tolerance, relative. On the row's own level it is the violation.
-  double Multiplier(int row, int level, Side side, double tolerance) const;
+  double Multiplier(int row, int level, Side side, double tolerance) const {
+    const double sign = static_cast<double>(side);
+    if (level == rows_[row].level) return sign * leading_.residual(row);
+    const Multipliers& of = multipliers_[level];
+    const bool is_zero = !of.any || std::abs(of.nu[row]) <= tolerance * of.size;
+    return is_zero ? 0 : sign * of.nu[row];
+  }
 
   /// Work since Read(). Products with all rows are not in its multiply-adds: they
   /// are the same in each iteration.
@@ -249,7 +256,10 @@ class WorkingSetProblem {
   double WorstRelativeLevelResidual() const;
   bool IsUneven() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
+  bool ZeroNegligibleEntries(double largest);
+  bool MeetsRowsWithZeros(const Hierarchy& hierarchy, double largest);
   void UpdateDeficientResiduals(const Hierarchy& hierarchy);
+  void TakeDeficientResiduals();
 
   int n_;
   int num_levels_ = 0, num_leading_ = 0;

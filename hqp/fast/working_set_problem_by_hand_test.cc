@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "poise/hqp/fast/tolerances.h"
@@ -303,7 +304,8 @@ class RefinementTest : public testing::Test {
         << met.row;
   }
 
-  std::vector<double> residual_;  // By row, not scaled to unit length.
+  std::vector<double> residual_;    // By row, not scaled to unit length.
+  std::int64_t multiply_adds_ = 0;  // Of the refinement.
 };
 
 Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
@@ -329,11 +331,13 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
   problem.Plan(hierarchy, 4);
   EXPECT_GE(problem.num_leading(), 1);
   problem.Solve(hierarchy, {{}, {}, {}, {}});
+  const std::int64_t before = problem.work().multiply_adds;
   if (other != nullptr) {
     problem.RefineFrom(hierarchy, *other);
   } else {
     problem.Refine(hierarchy);
   }
+  multiply_adds_ = problem.work().multiply_adds - before;
   residual_.clear();
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     residual_.push_back(problem.leading().residual(a) * problem.row(a).norm);
@@ -418,6 +422,22 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
       }
     }
   }
+}
+
+// The same rows take one more correction at most than rows that can be met: after it, the
+// rounding is far below 1e-18 of the largest entry.
+TEST_F(RefinementTest, StopsWhereRoundingKeepsRowsFromZero) {
+  const auto refine = [this](double target) {
+    return Refine({{Row({1, 0.3, 0.7}), 300},
+                   {Row({0, 0.6, 0.35}), target},
+                   {Row({0, 0.15, -0.9}), target}},
+                  {});
+  };
+  EXPECT_EQ(refine(0).tail(2), Eigen::Vector2d::Zero());
+  const std::int64_t to_zero = multiply_adds_;
+  refine(1);
+  EXPECT_GT(multiply_adds_, 0);
+  EXPECT_LE(to_zero, 2 * multiply_adds_);
 }
 
 // Three rows meet at y0 = 0, in any order. Rounding of y0 would violate the row
