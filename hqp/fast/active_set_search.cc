@@ -51,7 +51,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
         return true;
       case PathEnd::kBudget:
         return false;
-      case PathEnd::kTooLong:
+      case PathEnd::kGivenUp:
         break;
     }
     if (!budget->Take(limit, problem->work())) return false;
@@ -101,7 +101,7 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   path_.Resume(side);
   path_.Forget();
   goes_on_ = true;
-  return PathEnd::kTooLong;
+  return PathEnd::kGivenUp;
 }
 
 // Searches from the optimum of the working set, for which `problem` is solved, or from y,

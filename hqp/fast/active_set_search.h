@@ -15,7 +15,7 @@ namespace poise {
 
 /// Finds the optimum of a hierarchy. AllAtOnce() follows a path from the last optimum,
 /// see ParametricSearch. A primal active-set method follows if there is no such
-/// optimum, or if the path is too long. See README.md.
+/// optimum, or if the path was given up. See README.md.
 ///
 /// Invariant of the primal method: outside the working set, y violates no row by
 /// more than rounding, except in a search that goes on from another y.
@@ -92,7 +92,7 @@ class ActiveSetSearch {
   };
 
   void RestoreWorkingSet(std::vector<std::vector<Side>>* side) const;
-  enum class PathEnd { kOptimum, kBudget, kTooLong };
+  enum class PathEnd { kOptimum, kBudget, kGivenUp };
   PathEnd FollowPath(const Hierarchy& hierarchy, int limit, Budget* budget,
                      WorkingSetProblem* problem,
                      std::vector<std::vector<Side>>* side);

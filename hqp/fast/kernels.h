@@ -62,8 +62,9 @@ double AbsoluteSum(const double* x, int n);
 /// max_i |x_i|, or 0 if n = 0.
 double Largest(const double* x, int n);
 
-/// The length of (x, y), as std::hypot() computes it, which takes ten times as long. Only
-/// where squares underflow or overflow, this function calls it.
+/// Returns the length of (x, y), faster than std::hypot(). A square that underflows, below
+/// 1e-308, is less than rounding of a sum above 1e-280. For smaller or infinite sums, this
+/// function calls std::hypot().
 inline double Length(double x, double y) {
   constexpr double kLeast = 1e-280, kMost = 1e280;
   const double squares = x * x + y * y;

@@ -204,6 +204,14 @@ TEST_F(KernelsTest, AbsoluteSumIsNotFiniteIfAnEntryIsNot) {
   }
 }
 
+TEST_F(KernelsTest, LargestIgnoresNaN) {
+  for (int j = 0; j < kMaxSize; ++j) {
+    std::vector<double> x(kMaxSize, -2);
+    x[j] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(kernels::Largest(x.data(), kMaxSize), 2) << j;
+  }
+}
+
 TEST_F(KernelsTest, LargestIsTheLargestMagnitude) {
   for (int n = 0; n <= kMaxSize; ++n) {
     std::vector<double> magnitudes = {0};
@@ -220,7 +228,7 @@ TEST_F(KernelsTest, LargestIsTheLargestMagnitude) {
   }
 }
 
-// Beside long double, also where squares underflow or overflow.
+// The result is compared with long double, also where squares underflow or overflow.
 TEST(Length, IsTheRootOfTheSumOfSquares) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const std::vector<double> parts{0,      1,      -3,   1e-20, 1e-139, 1e-141,

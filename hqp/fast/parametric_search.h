@@ -29,8 +29,8 @@ namespace poise {
 /// so that a row that is removed from it has the multiplier zero. So rows can be
 /// removed together, also before their multipliers are zero, and rows can be added,
 /// with the multiplier zero, before y reaches their bound. This makes a path shorter.
-/// Where many rows block at the same time, only RemovalLimits and the limit of iterations
-/// exclude a cycle.
+/// Where many rows block at the same time, only RemovalLimits, the limit of iterations and
+/// that of alternations exclude a cycle.
 ///
 /// Nothing allocates after construction.
 class ParametricSearch {
@@ -66,9 +66,9 @@ class ParametricSearch {
 
   /// Follows the path, from the working set `side`, for which `problem` is solved.
   /// Returns whether the optimum has been reached: it is y(), and the solution of
-  /// `problem`. If not, because the budget, or `limit` iterations of it, did not
-  /// suffice, or because rows were added and removed in turn too often, `problem` is not
-  /// solved for the last change of `side`.
+  /// `problem`. If not, the budget, or `limit` iterations of it, did not suffice, or a path
+  /// without a limit of time was given up, because rows were added and removed in turn.
+  /// `problem` is then not solved for the last change of `side`.
   /// pre: is_known().
   [[nodiscard]] bool Follow(const Hierarchy& hierarchy, int limit,
                             Budget* budget, WorkingSetProblem* problem,
@@ -102,12 +102,10 @@ class ParametricSearch {
     RowIndex removed;
     Side removed_side = Side::kNone;
   };
-  /// The number of last iterations that all added, or all removed, rows, and of those that
-  /// added and removed rows in turn.
   struct Run {
-    bool adds;
-    int length;
-    int alternations = 0;
+    bool adds;   ///< Whether the last iteration added rows.
+    int length;  ///< Last iterations that all changed rows in this direction.
+    int alternations = 0;  ///< Last iterations that each changed the direction.
     void Count(bool is_addition) {
       const bool goes_on = is_addition == adds;
       length = goes_on ? length + 1 : 1;

@@ -106,20 +106,21 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   // rounding.
   const int enough = IsUneven() ? 2 : 1;
   double worst = ComputeRowResiduals(hierarchy);
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
-    if (pass >= enough && worst <= tolerances::kRefined) break;
-    if (pass >= enough &&
-        MeetsRowsWithZeros(hierarchy, std::max(largest, Size()))) {
-      worst = 0;
-      break;
-    }
+  bool is_met = false;
+  for (int pass = 0; pass < kMaxPasses && !is_met; ++pass) {
+    const double before = worst;
     leading_.Correct(row_residual_.data(), change_.data());
     diagonal_.Correct(leading_, change_.data(), to_minimum && pass == 0,
                       y_.data());
     worst = ComputeRowResiduals(hierarchy);
+    if (pass + 1 < enough) continue;
+    // A pass that converges recovers about 15 digits, so a half is no progress.
+    is_met =
+        worst <= tolerances::kRefined ||
+        (worst > before / 2 && TryZeros(hierarchy, std::max(largest, Size())));
   }
   largest = std::max(largest, Size());
-  if (worst > tolerances::kRefined) {
+  if (!is_met) {
     // Rows that are still not met have rounding where y should be zero. Such
     // entries are set to zero, except those at the target of a diagonal level.
     // All are restored if this more than doubles the residual of a level.
@@ -133,7 +134,6 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
       if (RelativeResidual(a) > tolerances::kRefined)
         ZeroRoundingEntries(hierarchy, Original(hierarchy, rows_[a]));
     }
-    ComputeRowResiduals(hierarchy);
   }
   TakeDeficientResiduals();
 }
@@ -154,10 +154,10 @@ bool WorkingSetProblem::ZeroNegligibleEntries(double largest) {
 }
 
 // Sets negligible entries of y to zero if all rows are then met to rounding, and returns
-// whether they are. If a foot carries no load, its rows have the value zero, and the
-// rounding of other entries keeps them from it in each pass.
-bool WorkingSetProblem::MeetsRowsWithZeros(const Hierarchy& hierarchy,
-                                           double largest) {
+// whether they are. If not, y is as before. The rows of a foot without load have the target
+// zero. In each pass, rounding of other entries leaves a tiny value, so that these rows are
+// never met relative to their own terms.
+bool WorkingSetProblem::TryZeros(const Hierarchy& hierarchy, double largest) {
   change_ = y_;
   if (!ZeroNegligibleEntries(largest)) return false;
   if (ComputeRowResiduals(hierarchy) <= tolerances::kRefined) return true;
@@ -221,7 +221,8 @@ void WorkingSetProblem::UpdateDeficientResiduals(const Hierarchy& hierarchy) {
   TakeDeficientResiduals();
 }
 
-// UpdateDeficientResiduals() after ComputeRowResiduals().
+// Sets the residuals of the deficient levels to those of the last ComputeRowResiduals(),
+// with rounding set to zero.
 void WorkingSetProblem::TakeDeficientResiduals() {
   for (int level = 0; level < num_leading_; ++level) {
     if (!leading_.is_deficient(level)) continue;

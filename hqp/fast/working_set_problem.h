@@ -257,7 +257,7 @@ class WorkingSetProblem {
   bool IsUneven() const;
   void Refine(const Hierarchy& hierarchy, bool to_minimum);
   bool ZeroNegligibleEntries(double largest);
-  bool MeetsRowsWithZeros(const Hierarchy& hierarchy, double largest);
+  bool TryZeros(const Hierarchy& hierarchy, double largest);
   void UpdateDeficientResiduals(const Hierarchy& hierarchy);
   void TakeDeficientResiduals();
 

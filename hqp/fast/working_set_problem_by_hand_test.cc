@@ -305,7 +305,8 @@ class RefinementTest : public testing::Test {
   }
 
   std::vector<double> residual_;    // By row, not scaled to unit length.
-  std::int64_t multiply_adds_ = 0;  // Of the refinement.
+  Eigen::VectorXd solved_y_;        // Before refinement.
+  std::int64_t multiply_adds_ = 0;  // The refinement has taken so many.
 };
 
 Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
@@ -331,6 +332,7 @@ Eigen::VectorXd RefinementTest::Refine(const std::vector<Met>& rows,
   problem.Plan(hierarchy, 4);
   EXPECT_GE(problem.num_leading(), 1);
   problem.Solve(hierarchy, {{}, {}, {}, {}});
+  solved_y_ = Eigen::VectorXd::Map(problem.y().data(), n);
   const std::int64_t before = problem.work().multiply_adds;
   if (other != nullptr) {
     problem.RefineFrom(hierarchy, *other);
@@ -424,8 +426,8 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
   }
 }
 
-// The same rows take one more correction at most than rows that can be met: after it, the
-// rounding is far below 1e-18 of the largest entry.
+// Rows with the target zero take one more correction at most than rows with other targets:
+// after it, the rounding is far below 1e-18 of the largest entry.
 TEST_F(RefinementTest, StopsWhereRoundingKeepsRowsFromZero) {
   const auto refine = [this](double target) {
     return Refine({{Row({1, 0.3, 0.7}), 300},
@@ -434,6 +436,7 @@ TEST_F(RefinementTest, StopsWhereRoundingKeepsRowsFromZero) {
                   {});
   };
   EXPECT_EQ(refine(0).tail(2), Eigen::Vector2d::Zero());
+  EXPECT_NE(solved_y_.tail(2), Eigen::Vector2d::Zero());
   const std::int64_t to_zero = multiply_adds_;
   refine(1);
   EXPECT_GT(multiply_adds_, 0);

@@ -38,8 +38,9 @@ bool PathBetween::Follow(const Hierarchy& hierarchy, int limit) {
   return FollowFromHere(hierarchy, limit);
 }
 
-bool PathBetween::FollowFromHere(const Hierarchy& hierarchy, int limit) {
-  Budget budget({limit}, &no_clock_);
+bool PathBetween::FollowFromHere(const Hierarchy& hierarchy, int limit,
+                                 double modelled_seconds) {
+  Budget budget({limit, modelled_seconds}, &no_clock_);
   problem_.SolveDiagonal();
   const CountMalloc count;
   const bool is_optimal =

@@ -28,7 +28,9 @@ class PathBetween {
   /// Follows the path to the second hierarchy. Returns whether `limit` iterations suffice.
   bool Follow(const Hierarchy& hierarchy, int limit = kEnough);
   /// Follow() without Start().
-  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough);
+  /// @param modelled_seconds  limit of time; 0: none.
+  bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough,
+                      double modelled_seconds = 0);
 
   /// ParametricSearch::MeetLevelsBeforeLast() after Start().
   bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit = kEnough);
