@@ -27,7 +27,9 @@ struct Work {
 /// replay with such a limit is exact. The times are a fit to 19200 solves of 24
 /// sequences on a quiet machine. Of the solves that took more than 250 us, 98 % took
 /// between 0.76 and 1.18 of the modelled time
-/// (docs/notebook/2026-11-27-fixed-variables.md). The time of a solve covers the
+/// (docs/notebook/2026-11-27-fixed-variables.md). Gaps of the certificate came later:
+/// where many rows are active, solves take 1.2 to 1.9 of the modelled time now
+/// (docs/notebook/2026-11-29-alternations.md). The time of a solve covers the
 /// check of the input, refinement, multipliers and the certificate.
 inline double ModelledSeconds(const Work& work, int iterations) {
   constexpr double kPerSolve = 16e-6, kPerEntry = 5.1e-9;
