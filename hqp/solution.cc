@@ -119,7 +119,7 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
         !is_finite(hierarchy.weight(level)) || !is_finite(hierarchy.C(level))) {
       return Status::kNotFinite;
     }
-    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       const double lower = hierarchy.lower(level)[i];
       const double upper = hierarchy.upper(level)[i];
       if (std::isnan(lower) || std::isnan(upper) || lower == kInfinity ||
@@ -128,7 +128,7 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
       }
       if (lower > upper) return Status::kBadInput;
     }
-    for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
+    for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
       if (hierarchy.weight(level)[i] < 0) return Status::kBadInput;
     }
   }

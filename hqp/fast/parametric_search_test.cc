@@ -201,25 +201,33 @@ class PolygonTest : public testing::Test {
  protected:
   static constexpr int kCorners = 40;
 
-  static Eigen::Vector2d Middle(int i) {
+  static Eigen::Vector2d Middle(int i, double turn = 0) {
     // No side is parallel to an axis: such sides are added ahead.
-    const double angle = 0.05 + 2 * M_PI * i / kCorners;
+    const double angle = 0.05 + turn + 2 * M_PI * i / kCorners;
     return {std::cos(angle), std::sin(angle)};
   }
-  Hierarchy Towards(int i) const {
-    Hierarchy hierarchy(2, capacity_);
-    InequalityBlock polygon = hierarchy.AddInequalities(0, kCorners);
-    for (int row = 0; row < kCorners; ++row) polygon.C.row(row) = Middle(row);
-    polygon.lower.setConstant(-kInfinity);
-    polygon.upper.setOnes();
-    EqualityBlock task = hierarchy.AddEqualities(1, 2);
-    // With unit vectors as rows, the level would be a diagonal one.
-    task.B << 1, 1, 1, -1;
-    task.b = -3 * task.B * Middle(i);
+  // Each further polygon is turned a little, in two more variables.
+  static Hierarchy Towards(int i, int polygons = 1) {
+    Hierarchy hierarchy(2 * polygons, Capacity(polygons));
+    for (int k = 0; k < polygons; ++k) {
+      InequalityBlock polygon = hierarchy.AddInequalities(0, kCorners);
+      for (int row = 0; row < kCorners; ++row) {
+        polygon.C.row(row).segment<2>(2 * k) = Middle(row, 0.02 * k);
+      }
+      polygon.lower.setConstant(-kInfinity);
+      polygon.upper.setOnes();
+      // With unit vectors as rows, the level would be a diagonal one.
+      EqualityBlock task = hierarchy.AddEqualities(1, 2);
+      task.B.middleCols<2>(2 * k) << 1, 1, 1, -1;
+      task.b = -3 * task.B.middleCols<2>(2 * k) * Middle(i);
+    }
     return hierarchy;
   }
+  static std::vector<LevelCapacity> Capacity(int polygons) {
+    return {{0, kCorners * polygons}, {2 * polygons, 0}};
+  }
 
-  const std::vector<LevelCapacity> capacity_{{0, kCorners}, {2, 0}};
+  const std::vector<LevelCapacity> capacity_ = Capacity(1);
 };
 
 TEST_F(PolygonTest, IsGivenUpAfterManyCorners) {
@@ -235,6 +243,15 @@ TEST_F(PolygonTest, IsGivenUpAfterManyCorners) {
       EXPECT_NEAR((search.y() - Middle(corners)).norm(), 0, 10 * kTolerance);
     }
   }
+}
+
+// Two polygons are turned against each other by an eighth of the angle of a side, so that two
+// sides are added, and then two removed.
+TEST_F(PolygonTest, IsFollowedIfTwoRowsInARowChangeInOneDirection) {
+  PathBetween search(4, Capacity(2));
+  search.Begin(Towards(0, 2));
+  ASSERT_TRUE(search.Follow(Towards(15, 2)));
+  EXPECT_NEAR((search.y().head<2>() - Middle(15)).norm(), 0, 10 * kTolerance);
 }
 
 // A path with a limit of time goes on in the next solve, so it is not given up.

@@ -25,7 +25,8 @@ class PathBetween {
   /// Solves the leading levels of the second hierarchy for the last working set.
   void Start(const Hierarchy& hierarchy);
 
-  /// Follows the path to the second hierarchy. Returns whether `limit` iterations suffice.
+  /// Follows the path to the second hierarchy. Returns whether `limit` iterations suffice,
+  /// and the path is not given up.
   bool Follow(const Hierarchy& hierarchy, int limit = kEnough);
   /// Follow() without Start().
   /// @param modelled_seconds  limit of time; 0: none.
