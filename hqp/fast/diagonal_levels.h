@@ -60,8 +60,9 @@ class DiagonalLevels {
 
   /// Computes the y that minimises the levels in order, subject to Q y = z. The first
   /// call after Clear(), Tie() or TieRows() factors the levels. Later calls update the
-  /// factors if the row space of Q has changed in one direction at most on either side,
-  /// which takes a fifth to half of the work. Otherwise they factor again.
+  /// factors if the row space of Q has gained four directions at most, or has lost or
+  /// exchanged one. That takes a tenth of the work for each gain, and a quarter for a
+  /// loss. Otherwise they factor again.
   void Solve(const LexicographicFactorization& leading, double* y);
 
   /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
@@ -144,7 +145,8 @@ class DiagonalLevels {
   double FactorRow(int level, int row);
   bool UpdateFactors(const LexicographicFactorization& leading);
   bool HasRowSpaceOf(const LexicographicFactorization& leading);
-  bool FindAdded(const LexicographicFactorization& leading);
+  bool FindAdded(const LexicographicFactorization& leading, int power);
+  bool FindUnit(int p);
   bool FindRemoved(const LexicographicFactorization& leading);
   void FindSumOfT(bool is_reversed);
   bool SubtractProjectionOnT();

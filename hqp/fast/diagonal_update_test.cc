@@ -211,12 +211,12 @@ TEST_P(DiagonalUpdateTest, AgreesWithNewFactors) {
   }
 }
 
-// Solve() finds out that several rows have changed.
-TEST_P(DiagonalUpdateTest, FactorsAgainIfSeveralRowsHaveChanged) {
+// Some of the changes are updates, and others need new factors.
+TEST_P(DiagonalUpdateTest, AgreesWithNewFactorsAfterSeveralChanges) {
   DiagonalLevels kept(n_, kMaxDiagonalLevels);
   Fill(&kept);
   for (int change = 0; change < kChanges; ++change) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = Below(6); i >= 0; --i) {
       LeadingRow& row = rows_[Below(2 * n_)];
       row.is_used = !row.is_used;
     }
@@ -261,24 +261,28 @@ class LargeDiagonalUpdateTest : public testing::Test {
     row.r.normalize();
     return row;
   }
-  // Adds a row and removes it again, or the other way round. Solve() then agrees with new
-  // factors, and takes less work: the factors have been updated.
-  void ExpectUpdate(int changed) {
+  // Adds rows and removes them again, or the other way round. Solve() then agrees with new
+  // factors. If one row has changed or rows were added, it takes less work: the factors have
+  // been updated.
+  void ExpectUpdate(int first, int count = 1) {
     Eigen::VectorXd y(kNumVariables), expected(kNumVariables);
-    LeadingRow& row = rows_[changed];
     for (int twice = 0; twice < 2; ++twice) {
       Fill(&kept_);
       Factor(rows_, &leading_);
       kept_.Solve(leading_, y.data());
-      row.is_used = !row.is_used;
+      for (int i = first; i < first + count; ++i) {
+        rows_[i].is_used = !rows_[i].is_used;
+      }
       Factor(rows_, &leading_);
       DiagonalLevels fresh(kNumVariables, 3);
       Fill(&fresh);
       fresh.Solve(leading_, expected.data());
       const std::int64_t before = kept_.multiply_adds();
       kept_.Solve(leading_, y.data());
-      EXPECT_LT(kept_.multiply_adds() - before, fresh.multiply_adds())
-          << row.is_used;
+      if (count == 1 || rows_[first].is_used) {
+        EXPECT_LT(kept_.multiply_adds() - before, fresh.multiply_adds())
+            << rows_[first].is_used;
+      }
       // The weights are 1e-6 to 5.
       ExpectEqual(leading_, 2300, &kept_, y, &fresh, expected);
     }
@@ -337,6 +341,21 @@ TEST_F(LargeDiagonalUpdateTest, FollowsAVariableThatIsFixedAndReleased) {
     rows_.push_back(row);
     ExpectUpdate(static_cast<int>(rows_.size()) - 1);
   }
+}
+
+TEST_F(LargeDiagonalUpdateTest, FollowsSeveralRowsThatAreAdded) {
+  for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random(i % 2));
+  for (const int count : {2, 3}) ExpectUpdate(4, count);
+}
+
+TEST_F(LargeDiagonalUpdateTest, FollowsSeveralVariablesThatAreFixed) {
+  for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
+  for (const int j : {9, 11, 30, 31}) {
+    LeadingRow row = Random();
+    row.r = Eigen::VectorXd::Unit(kNumVariables, j);
+    rows_.push_back(row);
+  }
+  for (const int count : {2, 3, 4}) ExpectUpdate(kNumRows, count);
 }
 
 TEST_F(LargeDiagonalUpdateTest, FollowsWithSeveralLaterLevels) {
