@@ -45,9 +45,10 @@ Certifier::Certifier(int num_variables,
       gradient_(num_variables),
       gradient_size_(num_variables),
       precise_gradient_(num_variables) {
-  int most_rows = 0;
+  int most_rows = 0, most_slacks = 0;
   for (const LevelCapacity& level : capacity) {
     most_rows = std::max({most_rows, level.equalities, level.inequalities});
+    most_slacks = std::max(most_slacks, level.equalities + level.inequalities);
     LevelRows rows;
     rows.residual.resize(level.equalities);
     rows.violation.resize(level.inequalities);
@@ -61,6 +62,7 @@ Certifier::Certifier(int num_variables,
   sums_.resize(most_rows);
   factor_.resize(most_rows);
   size_.resize(most_rows);
+  slacks_.reserve(most_slacks);
 }
 
 Certificate Certifier::Certify(const Hierarchy& hierarchy,

@@ -88,14 +88,16 @@ void Certifier::FindGap(const Hierarchy& hierarchy, int level,
   FindNormsOfMultipliers(hierarchy, level, solution);
   double gap = cost;
   if (cost > kSharpEnough * CostScale(level)) {
-    if (rounding * radius > kSharpEnough * CostScale(level)) {
+    double gain = 0;
+    for (int above = 0; above < level; ++above) {
+      gain += LargestGain(hierarchy, level, above, radius, solution);
+    }
+    // If the gains are larger, a sharper gradient cannot halve the gap.
+    if (rounding * radius > std::max(kSharpEnough * CostScale(level), gain)) {
       error_[level] = PreciseGradientNorm(hierarchy, level, solution) +
                       PreciseRounding(num_terms_ + n) * size;
     }
-    gap = error_[level] * radius;
-    for (int above = 0; above < level; ++above) {
-      gap += LargestGain(hierarchy, level, above, radius, solution);
-    }
+    gap = error_[level] * radius + gain;
     gap = std::isnan(gap) ? cost : std::min(gap, cost);
   }
   gap_[level] = exact_gap_[level] = gap + cost_rounding_[level];
@@ -240,14 +242,10 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
          std::min(std::max(distance, 0.0) + rounding, rows.norm[i] * radius);
 }
 
-// Calls use(m, s, change, rounding, distance) for the rows of level `above`: the
-// multiplier m that `level` puts on the row, divided by the root of the row's weight; its
-// residual or slack s and the change of s along p, with the rounding of the latter, times
-// the root; and the distance of an inactive row from its bounds, else 0.
-template <typename Use>
-void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
-                             const Eigen::VectorXd* p, const Solution& solution,
-                             const Use& use) const {
+// Finds slacks_: a SlackTerm for each row of level `above` that can have a residual or a
+// slack. Without p, nothing changes along p.
+void Certifier::FindSlacks(const Hierarchy& hierarchy, int level, int above,
+                           const Eigen::VectorXd* p, const Solution& solution) {
   const auto along_p = [p](const double* row, Span span) {
     if (p == nullptr) return RowSums{};
     return SumRow(row, span, p->data());
@@ -255,60 +253,60 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
   const LevelMultipliers& multipliers =
       solution.levels[level].multipliers[above];
   const LevelRows& rows = rows_[above];
-  const auto B = hierarchy.B(above), C = hierarchy.C(above);
-  for (int i = 0; i < B.rows(); ++i) {
+  slacks_.clear();
+  for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
     const double root = std::sqrt(hierarchy.weight(above)[i]);
     if (root == 0) continue;
     const Span span = hierarchy.B_span(above)[i];
-    const RowSums sums = along_p(B.row(i).data(), span);
-    use(multipliers.equality[i] / root, root * rows.residual[i],
-        root * sums.product,
-        root * RowSumRounding(span.size) * sums.product_size, 0);
+    const RowSums sums = along_p(hierarchy.B(above).row(i).data(), span);
+    slacks_.push_back({multipliers.equality[i] / root, root * rows.residual[i],
+                       root * sums.product,
+                       root * RowSumRounding(span.size) * sums.product_size,
+                       0});
   }
-  for (int i = 0; i < C.rows(); ++i) {
+  for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
     const double slack = std::max(rows.violation[i], 0.0);
     const double mu = multipliers.inequality[i];
     const bool is_inactive = slack == 0 && mu == 0;
     const Span span = hierarchy.C_span(above)[i];
-    const RowSums sums = along_p(C.row(i).data(), span);
-    use(mu, rows.side[i] == Side::kUpper ? slack : -slack, sums.product,
-        RowSumRounding(span.size) * sums.product_size,
-        is_inactive ? -rows.violation[i] : 0);
+    const RowSums sums = along_p(hierarchy.C(above).row(i).data(), span);
+    slacks_.push_back({mu, rows.side[i] == Side::kUpper ? slack : -slack,
+                       sums.product,
+                       RowSumRounding(span.size) * sums.product_size,
+                       is_inactive ? -rows.violation[i] : 0});
   }
 }
 
 // Largest sum of m_i times the change of s_i, the residuals and slacks of a level
-// above, with m = J p + f s + rest, see ForEachSlack(). Without p, J p is zero. Infinite
+// above, with m = J p + f s + rest, see SlackTerm. Without p, J p is zero. Infinite
 // if the levels above do not allow a step along p.
 double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
                                const Eigen::VectorXd* p,
-                               const Solution& solution) const {
+                               const Solution& solution) {
   double slope = 0, longest = kInfinity;
   if (p != nullptr) {
     longest = LargestStep(hierarchy, above, *p, solution, &slope);
     if (longest == 0) return kInfinity;
   }
+  FindSlacks(hierarchy, level, above, p, solution);
   double along = 0, squares = 0;
-  ForEachSlack(hierarchy, level, above, p, solution,
-               [&](double m, double s, double change, double, double) {
-                 along += (m - change) * s;
-                 squares += s * s;
-               });
+  for (const SlackTerm& term : slacks_) {
+    along += (term.m - term.change) * term.s;
+    squares += term.s * term.s;
+  }
   const double gap = exact_gap_[above], undercut = undercut_[above];
   const auto gain = [&](double f) {
     double step = longest, rest_squares = 0;
-    ForEachSlack(hierarchy, level, above, p, solution,
-                 [&](double m, double s, double change, double rounding,
-                     double distance) {
-                   const double rest =
-                       std::abs(m - change - f * s) + rounding +
-                       kEpsilon * (std::abs(m) + std::abs(change));
-                   if (distance > 0) {
-                     step = std::min(step, distance / rest);
-                   } else {
-                     rest_squares += rest * rest;
-                   }
-                 });
+    for (const SlackTerm& term : slacks_) {
+      const double rest = std::abs(term.m - term.change - f * term.s) +
+                          term.rounding +
+                          kEpsilon * (std::abs(term.m) + std::abs(term.change));
+      if (term.distance > 0) {
+        step = std::min(step, term.distance / rest);
+      } else {
+        rest_squares += rest * rest;
+      }
+    }
     // The slope is counted twice: once for the cost, and once for what y - t p misses
     // above, because its rows change along p by rounding.
     const double of_p = p == nullptr ? 0 : (gap + undercut) / step + 2 * slope;
@@ -337,7 +335,7 @@ double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
       *slope += std::abs(multiplier) *
                 (std::abs(sums.product) +
                  RowSumRounding(span.size) * sums.product_size);
-      return sums.product;
+      return sums;
     };
     // A row that must not change may change by rounding of the solver.
     const auto changes = [&](double along_p, double norm) {
@@ -345,16 +343,16 @@ double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
     };
     for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
       if (hierarchy.weight(above)[i] == 0) continue;
-      const auto row = hierarchy.B(above).row(i);
-      const double along_p =
-          change(row.data(), hierarchy.B_span(above)[i], of.equality[i]);
-      if (changes(along_p, row.norm())) return 0;
+      const RowSums sums = change(hierarchy.B(above).row(i).data(),
+                                  hierarchy.B_span(above)[i], of.equality[i]);
+      if (changes(sums.product, std::sqrt(sums.squared_row_norm))) return 0;
     }
     const LevelRows& rows = rows_[above];
     for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
       const double along_p =
           change(hierarchy.C(above).row(i).data(), hierarchy.C_span(above)[i],
-                 of.inequality[i]);
+                 of.inequality[i])
+              .product;
       const double margin = tolerances::kAtBound * rows.size[i];
       const bool is_inside = rows.violation[i] < -margin;
       if (along_p == 0 || (!is_inside && !changes(along_p, rows.norm[i]))) {

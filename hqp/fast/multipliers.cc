@@ -151,7 +151,8 @@ std::pair<int, double> MultiplierWriter::FirstPositiveMultiplier(
   const WorkingSetProblem::Row& row = problem.row(a);
   for (int l = row.level; l < level; ++l) {
     const double weight = Sign(side) * Weight(problem, solution, a, l);
-    if (weight * row.norm > Rounding(problem, solution, l, tolerance)) {
+    if (weight > 0 &&
+        weight * row.norm > Rounding(problem, solution, l, tolerance)) {
       return {l, weight};
     }
   }
