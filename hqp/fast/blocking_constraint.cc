@@ -96,7 +96,7 @@ void ActiveSetSearch::RemoveDependentRow(const Hierarchy& hierarchy,
                                          WorkingSetProblem* problem,
                                          std::vector<std::vector<Side>>* side) {
   const double* row = hierarchy.C(added.level).data() + added.row * n_;
-  const double* factors = problem->FindCombination(row);
+  const double* factors = problem->FindCombination(row).factors;
   if (factors == nullptr) return;
   const int rows = problem->leading().num_rows();
   const double rounding =

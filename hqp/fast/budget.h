@@ -21,23 +21,28 @@ struct Work {
   std::int64_t multiply_adds = 0;
   /// Entries of all rows of the hierarchy, within their spans.
   int num_entries = 0;
+  /// Inequalities of the working set that was factored last, of the levels in use.
+  int num_active = 0;
+  /// Sum of num_active over all working sets that were factored.
+  std::int64_t sum_active = 0;
 };
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
-/// replay with such a limit is exact. The times are a fit to 19200 solves of 24
-/// sequences on a quiet machine. Of the solves that took more than 250 us, 98 % took
-/// between 0.76 and 1.18 of the modelled time
-/// (docs/notebook/2026-11-27-fixed-variables.md). Gaps of the certificate came later:
-/// where many rows are active, solves take 1.2 to 1.9 of the modelled time now
-/// (docs/notebook/2026-11-29-alternations.md). The time of a solve covers the
-/// check of the input, refinement, multipliers and the certificate.
+/// replay with such a limit is exact. The time covers the check of the input, refinement,
+/// multipliers and the certificate. The constants are a fit to 55600 solves of 24
+/// sequences, each the fastest of 15 runs with its rows in the cache. Of the solves that
+/// are modelled with 250 to 350 us, 90 % took between 0.69 and 1.23 of this time, and 99 %
+/// less than 1.32 (docs/notebook/2026-11-29-updates.md).
 inline double ModelledSeconds(const Work& work, int iterations) {
-  constexpr double kPerSolve = 16e-6, kPerEntry = 5.1e-9;
-  constexpr double kPerIteration = 3.1e-6, kPerIterationAndEntry = 0.76e-9;
-  constexpr double kPerMultiplyAdd = 0.129e-9;
+  constexpr double kPerSolve = 9.3e-6, kPerEntry = 4.4e-9;
+  constexpr double kPerIteration = 0.8e-6, kPerIterationAndEntry = 0.5e-9;
+  constexpr double kPerMultiplyAdd = 0.177e-9;
+  constexpr double kPerActive = 0.79e-6, kPerIterationAndActive = 0.115e-6;
   return kPerSolve + kPerEntry * work.num_entries +
+         kPerActive * work.num_active +
          (kPerIteration + kPerIterationAndEntry * work.num_entries) *
              iterations +
+         kPerIterationAndActive * static_cast<double>(work.sum_active) +
          kPerMultiplyAdd * static_cast<double>(work.multiply_adds);
 }
 

@@ -87,6 +87,8 @@ TEST(ModelledSeconds, GrowsWithTheWork) {
   EXPECT_GT(ModelledSeconds({}, 1), ModelledSeconds({}, 0));
   EXPECT_GT(ModelledSeconds({1, 0}, 0), ModelledSeconds({}, 0));
   EXPECT_GT(ModelledSeconds({0, 1}, 0), ModelledSeconds({}, 0));
+  EXPECT_GT(ModelledSeconds({0, 0, 1}, 0), ModelledSeconds({}, 0));
+  EXPECT_GT(ModelledSeconds({0, 0, 0, 1}, 0), ModelledSeconds({}, 0));
 }
 
 // Each iteration multiplies all rows.

@@ -60,11 +60,9 @@ bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
     StepTo(problem->y(), blocking.time);
     if (blocking.side == Side::kNone) return true;
     last = Add(blocking, side);
-    // If y violates one bound, it is likely to violate others, which also block at once.
-    if (blocking.time == 0 &&
-        AddAhead(hierarchy, *problem, num_levels, last, side)) {
-      last = {};
-    }
+    // Where one row blocks, others are likely to block next, also those that have been
+    // removed together.
+    if (AddAhead(hierarchy, *problem, num_levels, last, true, side)) last = {};
   }
 }
 

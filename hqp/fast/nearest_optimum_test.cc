@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <vector>
@@ -122,6 +123,33 @@ TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
     EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
   }
   EXPECT_GT(closest, 80);
+}
+
+// The sum of six bounded variables must become 7, and y is to stay close to zero. One
+// iteration adds the sum, with y_i = 7/6; one the three bounds that block next; and one the
+// fourth. One finds that y violates nothing, and one solves the levels again.
+TEST(NearestOptimum, AddsTheBoundsThatBlockNext) {
+  constexpr int kSum = 6;
+  const std::vector<LevelCapacity> capacity{{0, 7}, {6, 0}};
+  const auto at = [&](double sum) {
+    Hierarchy hierarchy(6, capacity);
+    InequalityBlock limits = hierarchy.AddInequalities(0, 7);
+    limits.C.topRows(6).setIdentity();
+    limits.C.row(kSum).setOnes();
+    limits.lower.setConstant(-10);
+    limits.lower[kSum] = sum;
+    limits.upper << 1, 1.02, 1.04, 1.3, 2, 2, 10;
+    EqualityBlock task = hierarchy.AddEqualities(1, 6);
+    task.B.setIdentity();
+    task.B(0, 1) = 1;  // Not a diagonal level.
+    hierarchy.FindSpans();
+    return hierarchy;
+  };
+  PathBetween search(6, capacity);
+  search.Begin(at(0));
+  ASSERT_TRUE(search.MeetLevelsBeforeLast(at(7), 5));
+  const Eigen::Matrix<double, 6, 1> y{1, 1.02, 1.04, 1.3, 1.32, 1.32};
+  EXPECT_NEAR((search.y() - y).norm(), 0, kSameY);
 }
 
 // Bounds that become infinite while the budget ends do not stay in the working set.

@@ -13,25 +13,22 @@
 namespace poise {
 namespace {
 
-// Most rows that are added ahead in one iteration, or removed ahead in one of a short run.
-// Of 2, 3, 4 and 6, none is best for all recorded sequences
-// (docs/notebook/2026-11-28-groups.md).
+// Most rows that are added ahead in one iteration. Of 2, 3, 4 and 6, none is best for all
+// recorded sequences (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxAhead = 3;
+
+// Most rows that are removed ahead in one iteration: long runs remove many. Chosen: 6, 8 and
+// 12 differ little (docs/notebook/2026-11-29-updates.md).
+constexpr int kMaxRemovedAhead = 8;
 
 // Most rows without a multiplier that one iteration removes. One iteration must not take
 // long, because a limit of time is only checked between two of them.
-constexpr int kMaxRemoved = kMaxAhead + 1;
+constexpr int kMaxRemoved = 4;
 
 // After so many iterations in a row that all added, or all removed, rows, the path looks
 // ahead. With 3 and 5, ticks of some robots take longer
 // (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongRun = 4;
-
-// After twice as many iterations that remove rows, twice as many rows are removed ahead:
-// such runs are long. The worst solve of h1_2 at 209 N takes 522 us instead of 547
-// (docs/notebook/2026-11-29-dependent-rows.md).
-constexpr int kLongRemoval = 2 * kLongRun;
-constexpr int kMaxRemovedAhead = 2 * kMaxAhead;
 
 // A path without a limit of time is given up after so many iterations in a row that add and
 // remove rows in turn. On recorded robots, such a path goes from vertex to vertex in steps of
@@ -53,6 +50,7 @@ ParametricSearch::ParametricSearch(int num_variables,
     side_.emplace_back(level.inequalities, Side::kNone);
     most = std::max(most, level.inequalities);
   }
+  factor_.resize(NumRows(capacity));
   near_side_ = side_;
   end_value_.resize(most);
   for (std::vector<double>* number :
@@ -107,8 +105,8 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
     problem->FindMultipliers(size);
     if (RemoveVanished(*problem, size, &last, side)) {
       run.Count(false);
-    } else if (Step(hierarchy, *problem, &last, side)) {
-      run.Count(last.added.level >= 0);
+    } else if (Step(hierarchy, problem, &last, side)) {
+      run.Count(last);
     } else {
       y_ = problem->y();
       return true;
@@ -120,11 +118,10 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       return false;
     }
     if (run.length >= kLongRun) {
-      const int most =
-          run.length >= kLongRemoval ? kMaxRemovedAhead : kMaxAhead;
-      const bool any = run.adds ? AddAhead(hierarchy, *problem,
-                                           problem->num_levels(), last, side)
-                                : RemoveAhead(*problem, size, most, last, side);
+      const bool any = run.adds
+                           ? AddAhead(hierarchy, *problem,
+                                      problem->num_levels(), last, false, side)
+                           : RemoveAhead(*problem, size, last, side);
       // Rows that change ahead may require that the last change is undone.
       if (any) last = {};
     }
@@ -136,12 +133,12 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
 // change. If there is none before the end of the path, this returns false and moves
 // nothing.
 bool ParametricSearch::Step(const Hierarchy& hierarchy,
-                            const WorkingSetProblem& problem, Change* last,
+                            WorkingSetProblem* problem, Change* last,
                             Sides* side) {
-  const int size = problem.num_levels() + 1;
+  const int num_levels = problem->num_levels(), size = num_levels + 1;
   const Blocking blocking =
-      FindBlocking(hierarchy, problem, problem.num_levels(), *last, *side);
-  const RowIndex removed = FindRemoval(problem, size, *last, *side);
+      FindBlocking(hierarchy, *problem, num_levels, *last, *side);
+  RowIndex removed = FindRemoval(*problem, size, *last, *side);
   if (blocking.side == Side::kNone && removed.level < 0) return false;
   std::fill(time_.begin(), time_.end(), 0);
   time_[0] = blocking.time;
@@ -150,9 +147,20 @@ bool ParametricSearch::Step(const Hierarchy& hierarchy,
       (blocking.side == Side::kNone ||
        !infinitesimals::IsLess(time_.data(), removal_time_.data(), size));
   if (removes) time_ = removal_time_;
-  Advance(problem, size, *side);
-  if (removes) start_.Remove(removed.level, removed.row);
-  *last = removes ? Remove(removed, side) : Add(blocking, side);
+  Advance(*problem, size, *side);
+  if (removes) {
+    start_.Remove(removed.level, removed.row);
+    *last = Remove(removed, side);
+    return true;
+  }
+  removed = Exchange(hierarchy, blocking, size, *last, *side, problem);
+  *last = Add(blocking, side);
+  if (removed.level < 0) return true;
+  (void)Remove(removed, side);
+  last->is_exchange = true;
+  // Only a row without a multiplier must stay.
+  const double* multiplier = start_.At(blocking.row.level, blocking.row.row);
+  if (infinitesimals::Sign(multiplier, size) > 0) last->added = {};
   return true;
 }
 
@@ -250,12 +258,13 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
 }
 
 // Adds those rows of one variable of the first `num_levels` levels that block next, up to
-// kMaxAhead, but none that has been removed on this path. Returns whether there was one.
+// kMaxAhead, but none that has been removed on this path, unless `again`. Returns whether
+// there was one.
 // When a robot reaches its limits, many such rows are added one after the other; most are
 // independent of each other, and a wrong one gets a negative multiplier and is removed.
 bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
                                 const WorkingSetProblem& problem,
-                                int num_levels, const Change& last,
+                                int num_levels, const Change& last, bool again,
                                 Sides* side) {
   const double noise = Noise(problem);
   std::array<Blocking, kMaxAhead> next;  // In the order of their times.
@@ -267,7 +276,7 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
       const double value =
           hierarchy.C(level)(i, span.first) * problem.y()[span.first];
       if ((value <= upper[i] && value >= lower[i]) ||
-          !removals_.HasAllRemovals({level, i})) {
+          (!again && !removals_.HasAllRemovals({level, i}))) {
         continue;
       }
       Blocking row =
@@ -283,14 +292,14 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
   return next[0].side != Side::kNone;
 }
 
-// Removes those rows whose multipliers become negative next, up to `most`, and none
-// after one that has been removed on this path. From then on, their multipliers count as
+// Removes those rows whose multipliers become negative next, up to kMaxRemovedAhead, and
+// none after one that has been removed on this path. From then on, their multipliers count as
 // zero. Returns whether there was one. A row that should have stayed blocks at once and is
 // added again.
 bool ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
-                                   int most, const Change& last, Sides* side) {
+                                   const Change& last, Sides* side) {
   bool any = false;
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < kMaxRemovedAhead; ++i) {
     const RowIndex row = FindRemoval(problem, size, last, *side);
     if (row.level < 0 || !removals_.HasAllRemovals(row)) break;
     start_.Remove(row.level, row.row);

@@ -101,6 +101,7 @@ class ParametricSearch {
     RowIndex added;  ///< No row if a row was removed.
     RowIndex removed;
     Side removed_side = Side::kNone;
+    bool is_exchange = false;  ///< A row has replaced another one.
   };
   struct Run {
     bool adds;   ///< Whether the last iteration added rows.
@@ -112,6 +113,10 @@ class ParametricSearch {
       alternations = goes_on ? 0 : alternations + 1;
       adds = is_addition;
     }
+    /// An exchange adds and removes a row, so it counts as a change of the direction.
+    void Count(const Change& change) {
+      Count(change.is_exchange ? !adds : change.added.level >= 0);
+    }
   };
 
   void TakeWorkingSet(const Sides& side);
@@ -121,8 +126,13 @@ class ParametricSearch {
                       const Change& last, Sides* side);
   bool RemoveVanished(const WorkingSetProblem& problem, int size, Change* last,
                       Sides* side);
-  bool Step(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+  bool Step(const Hierarchy& hierarchy, WorkingSetProblem* problem,
             Change* last, Sides* side);
+  RowIndex Exchange(const Hierarchy& hierarchy, const Blocking& added, int size,
+                    const Change& last, const Sides& side,
+                    WorkingSetProblem* problem);
+  bool FindFactors(const Hierarchy& hierarchy, const Blocking& added,
+                   const Sides& side, WorkingSetProblem* problem);
   double Noise(const WorkingSetProblem& problem) const;
   Blocking FindTime(const Hierarchy& hierarchy,
                     const WorkingSetProblem& problem, RowIndex row,
@@ -131,8 +141,8 @@ class ParametricSearch {
                         const WorkingSetProblem& problem, int num_levels,
                         const Change& last, const Sides& side);
   bool AddAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
-                int num_levels, const Change& last, Sides* side);
-  bool RemoveAhead(const WorkingSetProblem& problem, int size, int most,
+                int num_levels, const Change& last, bool again, Sides* side);
+  bool RemoveAhead(const WorkingSetProblem& problem, int size,
                    const Change& last, Sides* side);
   RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
                        const Change& last, const Sides& side);
@@ -162,6 +172,7 @@ class ParametricSearch {
   std::vector<double> center_;
   std::vector<double> end_, time_, removal_time_;  ///< Infinitesimals.
   std::vector<double> scratch_, end_value_;
+  std::vector<double> factor_;  ///< By leading row, see FindFactors().
   RemovalLimits removals_;
 };
 

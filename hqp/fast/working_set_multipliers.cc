@@ -112,18 +112,21 @@ int WorkingSetProblem::FindTradeOff(int level, double* trade_off) {
   return -1;
 }
 
-const double* WorkingSetProblem::FindCombination(const double* row) {
+WorkingSetProblem::Combination WorkingSetProblem::FindCombination(
+    const double* row) {
   const int rank = leading_.rank();
   leading_.Project(row, rank, gradient_.data());
-  const double squared = kernels::SquaredNorm(row, n_);
-  const double independent =
-      squared - kernels::SquaredNorm(gradient_.data(), rank);
-  if (independent >
-      tolerances::kIndependentPart * tolerances::kIndependentPart * squared) {
-    return nullptr;
+  // A difference of squares would not resolve a remainder below 1e-8.
+  for (int e = 0; e < rank; ++e) nu_[e] = -gradient_[e];
+  std::copy_n(row, n_, change_.begin());
+  leading_.AddCombination(nu_.data(), rank, change_.data());
+  const double remainder = std::sqrt(kernels::SquaredNorm(change_.data(), n_));
+  const double length = std::sqrt(kernels::SquaredNorm(row, n_));
+  if (remainder > tolerances::kIndependentPart * length) {
+    return {nullptr, remainder};
   }
   leading_.SolveDual(leading_.num_levels(), gradient_.data(), nu_.data());
-  return nu_.data();
+  return {nu_.data(), remainder};
 }
 
 }  // namespace poise

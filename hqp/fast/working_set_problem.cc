@@ -98,7 +98,8 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   *failed_level = 0;
   before_ = leading_.multiply_adds() + diagonal_.multiply_adds();
-  num_entries_ = 0;
+  num_entries_ = num_active_ = 0;
+  sum_active_ = 0;
   if (hierarchy.num_variables() != n_) return Status::kBadInput;
   int inequalities = 0;  // These are all in leading levels.
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
@@ -332,6 +333,7 @@ int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
                                   int met) const {
   int changes = 0;
   for (int level = 0; level < met; ++level) {
+    if (side[level] == factored_[level]) continue;
     for (size_t i = 0; i < side[level].size(); ++i) {
       const Side before = factored_[level][i], after = side[level][i];
       if (before == after) continue;
@@ -403,6 +405,16 @@ void WorkingSetProblem::SolveLeading(
   is_planned_ = false;
   is_factored_ = true;
   is_diagonal_solved_ = false;
+  CountActive();
+}
+
+// Counts the inequalities of the working set.
+void WorkingSetProblem::CountActive() {
+  num_active_ = 0;
+  for (int a = 0; a < leading_.num_rows(); ++a) {
+    num_active_ += rows_[a].is_inequality ? 1 : 0;
+  }
+  sum_active_ += num_active_;
 }
 
 // Returns the number of factored levels before the first deficient one.

@@ -163,12 +163,18 @@ class WorkingSetProblem {
   /// pre: FindMultipliers().
   int FindTradeOff(int level, double* trade_off);
 
-  /// Finds the factors, by leading row of unit length, with which these rows add up to
-  /// `row`, of num_variables numbers. Returns null if the part of `row` that is independent
-  /// of them is above kIndependentPart of its length. If they depend on each other, the
-  /// factors are not unique. They are valid until the next call.
+  /// A row as a sum of the leading rows.
+  struct Combination {
+    const double*
+        factors;       ///< By leading row of unit length. Null: independent.
+    double remainder;  ///< Length of the part that is not in the sum.
+  };
+  /// Finds the combination of the leading rows that is closest to `row`, of num_variables
+  /// numbers. Has no factors if the remainder is above kIndependentPart of the length of
+  /// `row`. If the leading rows depend on each other, the factors are not unique. They are
+  /// valid until the next call.
   /// pre: SolveLeading().
-  [[nodiscard]] const double* FindCombination(const double* row);
+  [[nodiscard]] Combination FindCombination(const double* row);
 
   /// Multiplier of an inequality row in a level's optimality condition.
   /// Positive: binding. Negative: removing the row lowers the cost. Zero if
@@ -185,7 +191,7 @@ class WorkingSetProblem {
   /// are the same in each iteration.
   Work work() const {
     return {leading_.multiply_adds() + diagonal_.multiply_adds() - before_,
-            num_entries_};
+            num_entries_, num_active_, sum_active_};
   }
 
   int num_levels() const { return num_levels_; }
@@ -217,6 +223,7 @@ class WorkingSetProblem {
 
  private:
   void AddRow(const Row& row, const double* from, double metric, int key);
+  void CountActive();
   Row Inequality(const Hierarchy& hierarchy, int level, int i, Side side) const;
   template <typename Use>
   void ForEachRow(const Hierarchy& hierarchy, const std::vector<Side>& side,
@@ -269,8 +276,10 @@ class WorkingSetProblem {
   bool is_planned_ = false;  ///< No solution since Plan().
   bool is_factored_ = false;
   bool is_diagonal_solved_ = false;  ///< Since the last SolveLeading().
-  int num_entries_ = 0;      ///< Entries of all rows, within their spans.
-  std::int64_t before_ = 0;  ///< Multiply-adds before Read().
+  int num_entries_ = 0;          ///< Entries of all rows, within their spans.
+  std::int64_t before_ = 0;      ///< Multiply-adds before Read().
+  int num_active_ = 0;           ///< Work::num_active.
+  std::int64_t sum_active_ = 0;  ///< Work::sum_active.
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;

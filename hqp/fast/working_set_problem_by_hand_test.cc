@@ -86,6 +86,25 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
 // The row y0 + y1 = 2, as an equality or as an active row. If its squared norm
 // times the weight nearly underflows, it counts as a row of zeros, and y is as
 // without it. Any longer row is met.
+TEST_F(WorkingSetProblemReadTest, CountsActiveInequalities) {
+  int failed_level;
+  for (int twice = 0; twice < 2; ++twice) {
+    ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
+    EXPECT_EQ(problem_.work().num_active, 0);
+    EXPECT_EQ(problem_.work().sum_active, 0);
+    problem_.Plan(hierarchy_, 2);
+    std::vector<std::vector<Side>> side = {{Side::kLower, Side::kNone},
+                                           {Side::kLower, Side::kUpper}};
+    problem_.SolveLeading(hierarchy_, side);
+    EXPECT_EQ(problem_.work().num_active, 3);
+    EXPECT_EQ(problem_.work().sum_active, 3);
+    side[1] = {Side::kNone, Side::kNone};
+    problem_.SolveLeading(hierarchy_, side);
+    EXPECT_EQ(problem_.work().num_active, 1);
+    EXPECT_EQ(problem_.work().sum_active, 3 + 1);
+  }
+}
+
 TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
   int failed_level;
   const auto solve = [&](double length, double root, bool is_equality) {

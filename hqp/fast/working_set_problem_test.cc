@@ -442,7 +442,7 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
   const Eigen::VectorXd row = unit * drawn;
   const double condition =
       SolveLexicographically(n_, Levels(sides, num_levels_, zero_)).condition;
-  const double* factors = problem_.FindCombination(row.data());
+  const double* factors = problem_.FindCombination(row.data()).factors;
   ASSERT_NE(factors, nullptr);
   const Eigen::VectorXd factor = Eigen::VectorXd::Map(factors, rows);
   const double rounding =
@@ -457,7 +457,10 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
   for (const double part : {0.5, 2.0}) {
     const Eigen::VectorXd other =
         row + part * tolerances::kIndependentPart * row.norm() * outside;
-    EXPECT_EQ(problem_.FindCombination(other.data()) != nullptr, part < 1);
+    const auto found = problem_.FindCombination(other.data());
+    EXPECT_EQ(found.factors != nullptr, part < 1);
+    EXPECT_NEAR(found.remainder,
+                part * tolerances::kIndependentPart * row.norm(), rounding);
   }
 }
 
