@@ -45,10 +45,10 @@ Certifier::Certifier(int num_variables,
       gradient_(num_variables),
       gradient_size_(num_variables),
       precise_gradient_(num_variables) {
-  int most_rows = 0, most_slacks = 0;
+  int most_rows = 0, most_sums = 0;
   for (const LevelCapacity& level : capacity) {
     most_rows = std::max({most_rows, level.equalities, level.inequalities});
-    most_slacks = std::max(most_slacks, level.equalities + level.inequalities);
+    most_sums = std::max(most_sums, level.equalities + level.inequalities);
     LevelRows rows;
     rows.residual.resize(level.equalities);
     rows.violation.resize(level.inequalities);
@@ -59,10 +59,9 @@ Certifier::Certifier(int num_variables,
     rows.side.resize(level.inequalities);
     rows_.push_back(std::move(rows));
   }
-  sums_.resize(most_rows);
+  sums_.resize(most_sums);
   factor_.resize(most_rows);
   size_.resize(most_rows);
-  slacks_.reserve(most_slacks);
 }
 
 Certificate Certifier::Certify(const Hierarchy& hierarchy,

@@ -56,14 +56,6 @@ class Certifier {
     Eigen::VectorXd rounding;  ///< Largest error of the violation by rounding.
     std::vector<Side> side;    ///< The nearer bound.
   };
-  /// A row of a level above, as GainOfSlacks() needs it.
-  struct SlackTerm {
-    double m;         ///< Multiplier, divided by the root of the row's weight.
-    double s;         ///< Residual or slack, times the root.
-    double change;    ///< Change of s along p.
-    double rounding;  ///< Rounding of `change`.
-    double distance;  ///< Distance of an inactive row from its bounds, else 0.
-  };
   void StoreGaps(int num_levels, Solution* solution) const;
   void AddToGradient(const double* rows, const Span* spans, int count);
   void JudgeRows(const Hierarchy& hierarchy, int level,
@@ -88,8 +80,11 @@ class Certifier {
                               const Solution& solution);
   double FreeChange(const Hierarchy& hierarchy, int level, int above, int i,
                     double mu, double radius, const Solution& solution) const;
-  void FindSlacks(const Hierarchy& hierarchy, int level, int above,
-                  const Eigen::VectorXd* p, const Solution& solution);
+  void FindSums(const Hierarchy& hierarchy, int level,
+                const Eigen::VectorXd* p);
+  template <typename Use>
+  void ForEachSlack(const Hierarchy& hierarchy, int level, int above,
+                    const Solution& solution, const Use& use) const;
   double GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
                       const Eigen::VectorXd* p, const Solution& solution);
   double LargestStep(const Hierarchy& hierarchy, int level,
@@ -97,8 +92,8 @@ class Certifier {
                      double* slope) const;
 
   std::vector<LevelRows> rows_;
-  /// By row of one block: its sums, and what AddToGradient() multiplies it with.
-  std::vector<RowSums> sums_;
+  std::vector<RowSums> sums_;  ///< By row of one block, or one level.
+  /// By row of one block: what AddToGradient() multiplies it with.
   std::vector<double> factor_, size_;
   /// By level: the cost, the cost of the magnitudes of its terms, and its rounding.
   std::vector<double> cost_, cost_size_, cost_rounding_;
@@ -119,8 +114,7 @@ class Certifier {
   /// By level and level above: norm of the multipliers that the level puts on the rows
   /// above, each divided by the root of the row's weight.
   Eigen::MatrixXd multiplier_norm_;
-  std::vector<SlackTerm> slacks_;  ///< By row of one level, see FindSlacks().
-  std::vector<bool> is_sharp_;     ///< See SharpenChanges().
+  std::vector<bool> is_sharp_;  ///< See SharpenChanges().
   double farthest_ = 0;  ///< Largest distance of a row of any level from y = 0.
   Eigen::VectorXd gradient_, gradient_size_;
   int num_terms_ = 0;  ///< Rows that have been added to gradient_.

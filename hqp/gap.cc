@@ -242,43 +242,56 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
          std::min(std::max(distance, 0.0) + rounding, rows.norm[i] * radius);
 }
 
-// Finds slacks_: a SlackTerm for each row of level `above` that can have a residual or a
-// slack. Without p, nothing changes along p.
-void Certifier::FindSlacks(const Hierarchy& hierarchy, int level, int above,
-                           const Eigen::VectorXd* p, const Solution& solution) {
-  const auto along_p = [p](const double* row, Span span) {
-    if (p == nullptr) return RowSums{};
-    return SumRow(row, span, p->data());
-  };
+// Finds sums_ along p of the equalities of a level, and then of its inequalities. Without
+// p, they are zero.
+void Certifier::FindSums(const Hierarchy& hierarchy, int level,
+                         const Eigen::VectorXd* p) {
+  const int n = hierarchy.num_variables();
+  const int equalities = hierarchy.num_equalities(level);
+  const int inequalities = hierarchy.num_inequalities(level);
+  if (p == nullptr) {
+    std::fill_n(sums_.begin(), equalities + inequalities, RowSums{});
+    return;
+  }
+  SumRows(hierarchy.B(level).data(), n, hierarchy.B_span(level), equalities,
+          p->data(), sums_.data());
+  SumRows(hierarchy.C(level).data(), n, hierarchy.C_span(level), inequalities,
+          p->data(), sums_.data() + equalities);
+}
+
+// Calls use(m, s, change, rounding, distance) for the rows of level `above`: the
+// multiplier m that `level` puts on the row, divided by the root of the row's weight; its
+// residual or slack s and the change of s along p, with the rounding of the latter, times
+// the root; and the distance of an inactive row from its bounds, else 0.
+// pre: FindSums().
+template <typename Use>
+void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
+                             const Solution& solution, const Use& use) const {
   const LevelMultipliers& multipliers =
       solution.levels[level].multipliers[above];
   const LevelRows& rows = rows_[above];
-  slacks_.clear();
-  for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+  const int equalities = hierarchy.num_equalities(above);
+  for (int i = 0; i < equalities; ++i) {
     const double root = std::sqrt(hierarchy.weight(above)[i]);
     if (root == 0) continue;
-    const Span span = hierarchy.B_span(above)[i];
-    const RowSums sums = along_p(hierarchy.B(above).row(i).data(), span);
-    slacks_.push_back({multipliers.equality[i] / root, root * rows.residual[i],
-                       root * sums.product,
-                       root * RowSumRounding(span.size) * sums.product_size,
-                       0});
+    const RowSums& sums = sums_[i];
+    const double rounding = RowSumRounding(hierarchy.B_span(above)[i].size);
+    use(multipliers.equality[i] / root, root * rows.residual[i],
+        root * sums.product, root * rounding * sums.product_size, 0);
   }
   for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
     const double slack = std::max(rows.violation[i], 0.0);
     const double mu = multipliers.inequality[i];
     const bool is_inactive = slack == 0 && mu == 0;
-    const Span span = hierarchy.C_span(above)[i];
-    const RowSums sums = along_p(hierarchy.C(above).row(i).data(), span);
-    slacks_.push_back({mu, rows.side[i] == Side::kUpper ? slack : -slack,
-                       sums.product,
-                       RowSumRounding(span.size) * sums.product_size,
-                       is_inactive ? -rows.violation[i] : 0});
+    const RowSums& sums = sums_[equalities + i];
+    const double rounding = RowSumRounding(hierarchy.C_span(above)[i].size);
+    use(mu, rows.side[i] == Side::kUpper ? slack : -slack, sums.product,
+        rounding * sums.product_size, is_inactive ? -rows.violation[i] : 0);
   }
 }
 
 // Largest sum of m_i times the change of s_i, the residuals and slacks of a level
-// above, with m = J p + f s + rest, see SlackTerm. Without p, J p is zero. Infinite
+// above, with m = J p + f s + rest, see ForEachSlack(). Without p, J p is zero. Infinite
 // if the levels above do not allow a step along p.
 double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
                                const Eigen::VectorXd* p,
@@ -288,25 +301,28 @@ double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
     longest = LargestStep(hierarchy, above, *p, solution, &slope);
     if (longest == 0) return kInfinity;
   }
-  FindSlacks(hierarchy, level, above, p, solution);
+  FindSums(hierarchy, above, p);
   double along = 0, squares = 0;
-  for (const SlackTerm& term : slacks_) {
-    along += (term.m - term.change) * term.s;
-    squares += term.s * term.s;
-  }
+  ForEachSlack(hierarchy, level, above, solution,
+               [&](double m, double s, double change, double, double) {
+                 along += (m - change) * s;
+                 squares += s * s;
+               });
   const double gap = exact_gap_[above], undercut = undercut_[above];
   const auto gain = [&](double f) {
     double step = longest, rest_squares = 0;
-    for (const SlackTerm& term : slacks_) {
-      const double rest = std::abs(term.m - term.change - f * term.s) +
-                          term.rounding +
-                          kEpsilon * (std::abs(term.m) + std::abs(term.change));
-      if (term.distance > 0) {
-        step = std::min(step, term.distance / rest);
-      } else {
-        rest_squares += rest * rest;
-      }
-    }
+    ForEachSlack(hierarchy, level, above, solution,
+                 [&](double m, double s, double change, double rounding,
+                     double distance) {
+                   const double rest =
+                       std::abs(m - change - f * s) + rounding +
+                       kEpsilon * (std::abs(m) + std::abs(change));
+                   if (distance > 0) {
+                     step = std::min(step, distance / rest);
+                   } else {
+                     rest_squares += rest * rest;
+                   }
+                 });
     // The slope is counted twice: once for the cost, and once for what y - t p misses
     // above, because its rows change along p by rounding.
     const double of_p = p == nullptr ? 0 : (gap + undercut) / step + 2 * slope;

@@ -24,33 +24,34 @@ RowIndex ParametricSearch::Exchange(const Hierarchy& hierarchy,
                                     const Change& last, const Sides& side,
                                     WorkingSetProblem* problem) {
   const int rows = problem->leading().num_rows();
-  if (!FindFactors(hierarchy, added, side, problem)) return {};
+  const double* factors = FindFactors(hierarchy, added, side, problem);
+  if (factors == nullptr) return {};
   std::vector<double>& least = removal_time_;  // The multiplier t.
   RowIndex removed;
   double factor = 0;             // That of `removed`.
   int lowest = added.row.level;  // The last level of a row with a factor.
   for (int a = 0; a < rows; ++a) {
-    if (factor_[a] == 0) continue;
+    if (factors[a] == 0) continue;
     const RowIndex index = {problem->row(a).level, problem->row(a).index};
     if (problem->leading().is_deficient(index.level)) return {};
     lowest = std::max(lowest, index.level);
-    if (factor_[a] <= tolerances::kZeroFactor ||
+    if (factors[a] <= tolerances::kZeroFactor ||
         !problem->row(a).is_inequality || removals_.IsFrozen(index)) {
       continue;
     }
     const double* start = start_.At(index.level, index.row);
     const bool is_positive = infinitesimals::Sign(start, size) > 0;
     for (int k = 0; k < size; ++k) {
-      scratch_[k] = is_positive ? start[k] / factor_[a] : 0;
+      scratch_[k] = is_positive ? start[k] / factors[a] : 0;
     }
     // If two multipliers vanish together, the one with the larger factor is taken.
     if (removed.level < 0 ||
         infinitesimals::IsLess(scratch_.data(), least.data(), size) ||
-        (factor_[a] > factor &&
+        (factors[a] > factor &&
          !infinitesimals::IsLess(least.data(), scratch_.data(), size))) {
       removed = index;
       least = scratch_;
-      factor = factor_[a];
+      factor = factors[a];
     }
   }
   if (removed.level < 0 || removed == last.added ||
@@ -60,10 +61,10 @@ RowIndex ParametricSearch::Exchange(const Hierarchy& hierarchy,
   }
   for (int a = 0; a < rows; ++a) {
     const RowIndex index = {problem->row(a).level, problem->row(a).index};
-    if (factor_[a] == 0 || !problem->row(a).is_inequality) continue;
+    if (factors[a] == 0 || !problem->row(a).is_inequality) continue;
     double* start = start_.At(index.level, index.row);
     for (int k = 0; k < size; ++k) {
-      const double term = factor_[a] * least[k], rest = start[k] - term;
+      const double term = factors[a] * least[k], rest = start[k] - term;
       const bool is_rounding =
           std::abs(rest) <= infinitesimals::kRounding * std::abs(term);
       start[k] = is_rounding ? 0 : rest;
@@ -74,29 +75,30 @@ RowIndex ParametricSearch::Exchange(const Hierarchy& hierarchy,
   return removed;
 }
 
-// Finds factor_, by row of the working set: r = sum_a f_a r_a for a blocking row r, where
-// all rows have unit length and count towards their bounds. Factors that are rounding become
-// zero. Returns false if the sum differs from r by more than rounding of its terms: an
+// Finds the factors f_a, by row of the working set: r = sum_a f_a r_a for a blocking row r,
+// where all rows have unit length and count towards their bounds. Factors that are rounding
+// are zero. Returns null if the sum differs from r by more than rounding of its terms: an
 // exchange would then let y violate the row that is removed.
-bool ParametricSearch::FindFactors(const Hierarchy& hierarchy,
-                                   const Blocking& added, const Sides& side,
-                                   WorkingSetProblem* problem) {
+const double* ParametricSearch::FindFactors(const Hierarchy& hierarchy,
+                                            const Blocking& added,
+                                            const Sides& side,
+                                            WorkingSetProblem* problem) const {
   const double* row = hierarchy.C(added.row.level).data() + added.row.row * n_;
   const auto [factors, remainder] = problem->FindCombination(row);
-  if (factors == nullptr) return false;
+  if (factors == nullptr) return nullptr;
   const int rows = problem->leading().num_rows();
   const double norm = std::sqrt(kernels::SquaredNorm(row, n_));
   const double largest = kernels::Largest(factors, rows);
-  if (remainder > kRankTolerance * std::max(norm, largest)) return false;
+  if (remainder > kRankTolerance * std::max(norm, largest)) return nullptr;
   const double rounding = tolerances::kZeroMultiplier * largest;
   for (int a = 0; a < rows; ++a) {
     const WorkingSetProblem::Row& of = problem->row(a);
     const bool is_same_side =
         !of.is_inequality || side[of.level][of.index] == added.side;
     const bool is_zero = std::abs(factors[a]) <= rounding;
-    factor_[a] = is_zero ? 0 : (is_same_side ? 1 : -1) * factors[a] / norm;
+    factors[a] *= is_zero ? 0 : (is_same_side ? 1 : -1) / norm;
   }
-  return true;
+  return factors;
 }
 
 }  // namespace poise

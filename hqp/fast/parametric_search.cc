@@ -50,7 +50,6 @@ ParametricSearch::ParametricSearch(int num_variables,
     side_.emplace_back(level.inequalities, Side::kNone);
     most = std::max(most, level.inequalities);
   }
-  factor_.resize(NumRows(capacity));
   near_side_ = side_;
   end_value_.resize(most);
   for (std::vector<double>* number :

@@ -131,8 +131,9 @@ class ParametricSearch {
   RowIndex Exchange(const Hierarchy& hierarchy, const Blocking& added, int size,
                     const Change& last, const Sides& side,
                     WorkingSetProblem* problem);
-  bool FindFactors(const Hierarchy& hierarchy, const Blocking& added,
-                   const Sides& side, WorkingSetProblem* problem);
+  const double* FindFactors(const Hierarchy& hierarchy, const Blocking& added,
+                            const Sides& side,
+                            WorkingSetProblem* problem) const;
   double Noise(const WorkingSetProblem& problem) const;
   Blocking FindTime(const Hierarchy& hierarchy,
                     const WorkingSetProblem& problem, RowIndex row,
@@ -172,7 +173,6 @@ class ParametricSearch {
   std::vector<double> center_;
   std::vector<double> end_, time_, removal_time_;  ///< Infinitesimals.
   std::vector<double> scratch_, end_value_;
-  std::vector<double> factor_;  ///< By leading row, see FindFactors().
   RemovalLimits removals_;
 };
 

@@ -165,8 +165,8 @@ class WorkingSetProblem {
 
   /// A row as a sum of the leading rows.
   struct Combination {
-    const double*
-        factors;       ///< By leading row of unit length. Null: independent.
+    /// By leading row of unit length. Null: independent. May be overwritten.
+    double* factors;
     double remainder;  ///< Length of the part that is not in the sum.
   };
   /// Finds the combination of the leading rows that is closest to `row`, of num_variables
