@@ -64,7 +64,10 @@ bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading,
   for (int p = 0; p < num_free_; ++p) {
     if (leading.variables().is_fixed(order_[p]) && FindUnit(p)) return true;
   }
-  for (int i = 0; i < leading.rank(); ++i) z_[i] = std::pow(probe_[i], power);
+  for (int i = 0; i < leading.rank(); ++i) {
+    z_[i] = probe_[i];
+    for (int k = 1; k < power; ++k) z_[i] *= probe_[i];
+  }
   Start(leading, z_.data());
   Count(leading.rank(), num_free_);
   std::copy_n(start_.begin(), num_free_, direction_.begin());

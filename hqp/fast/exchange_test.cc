@@ -168,8 +168,8 @@ TEST(Exchange, IsNotMadeWithANearlyDependentRow) {
   }
 }
 
-// A level above the bounds asks for y_0 + y_1 / 2 = 3 and = 0, so that its optimum, 1.5,
-// leaves residuals. The factors of its two rows are not unique, so that no row is replaced.
+// The first level has two rows, y_0 + y_1 / 2 = 3 and y_0 + y_1 / 2 = 0, so that its optimum,
+// 1.5, leaves residuals. The factors of its two rows are not unique, so that no row is replaced.
 // The path finds the optimum all the same.
 TEST(Exchange, IsNotMadeWithADeficientLevel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 2}, {2, 0}};

@@ -83,9 +83,7 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// The row y0 + y1 = 2, as an equality or as an active row. If its squared norm
-// times the weight nearly underflows, it counts as a row of zeros, and y is as
-// without it. Any longer row is met.
+// Equalities do not count, and the sum is that of all solutions since Read().
 TEST_F(WorkingSetProblemReadTest, CountsActiveInequalities) {
   int failed_level;
   for (int twice = 0; twice < 2; ++twice) {
@@ -105,6 +103,9 @@ TEST_F(WorkingSetProblemReadTest, CountsActiveInequalities) {
   }
 }
 
+// The row y0 + y1 = 2, as an equality or as an active row. If its squared norm
+// times the weight nearly underflows, it counts as a row of zeros, and y is as
+// without it. Any longer row is met.
 TEST_F(WorkingSetProblemReadTest, IgnoresRowsWhoseSquareUnderflows) {
   int failed_level;
   const auto solve = [&](double length, double root, bool is_equality) {
