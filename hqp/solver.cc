@@ -308,7 +308,7 @@ Status Solver::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   Budget budget({max_iterations, max_modelled_seconds, max_seconds}, &now);
   const Status status =
       impl_->Solve(hierarchy, finds_nullity, &budget, solution);
-  modelled_seconds_ = ModelledSeconds(impl_->work(), budget.iterations());
+  modelled_seconds_ = ModelledSeconds(impl_->work());
   return status;
 }
 

@@ -74,11 +74,15 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
 ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
     const Hierarchy& hierarchy, int limit, Budget* budget,
     WorkingSetProblem* problem, std::vector<std::vector<Side>>* side) {
+  bool is_met = true;
   path_.Begin(y_);
-  problem->Start(hierarchy, *side, &y_, path_.mutable_y());
-  const bool is_met =
-      !budget->has_time_limit() ||
-      path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side);
+  if (budget->has_time_limit()) {
+    is_met = path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side,
+                                        &y_);
+  } else {
+    problem->Start(hierarchy, *side, path_.mutable_y());
+    y_ = path_.y();
+  }
   if (is_met) {
     problem->SolveDiagonal();
     set_optimum_ = problem->y();
@@ -223,12 +227,35 @@ bool ActiveSetSearch::IsBetter(const Hierarchy& hierarchy,
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     const Cost cost = FindCost(hierarchy, level, y);
     const Cost than = FindCost(hierarchy, level, other);
-    const double rounding =
-        tolerances::kZeroSlope * std::max(cost.size, than.size);
-    if (std::abs(cost.cost - than.cost) > rounding)
+    const double difference = std::abs(cost.cost - than.cost);
+    if (difference > tolerances::kZeroSlope * std::max(cost.size, than.size) &&
+        difference > std::max(CostOfRounding(hierarchy, level, y),
+                              CostOfRounding(hierarchy, level, other))) {
       return cost.cost < than.cost;
+    }
   }
   return false;
+}
+
+// Returns the cost of a level that rounding of y can cause. Where the terms of all rows
+// cancel, this is more than rounding of the cost.
+double ActiveSetSearch::CostOfRounding(const Hierarchy& hierarchy, int level,
+                                       const std::vector<double>& y) const {
+  const double rounding =
+      tolerances::kSolutionRounding * kernels::Largest(y.data(), n_);
+  const auto square = [&](const double* row) {
+    const double residual = rounding * kernels::AbsoluteSum(row, n_);
+    return residual * residual;
+  };
+  double sum = 0;
+  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+    sum += hierarchy.weight(level)[i] *
+           square(hierarchy.B(level).data() + static_cast<size_t>(i) * n_);
+  }
+  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+    sum += square(hierarchy.C(level).data() + static_cast<size_t>(i) * n_);
+  }
+  return sum;
 }
 
 ActiveSetSearch::Cost ActiveSetSearch::FindCost(const Hierarchy& hierarchy,

@@ -102,6 +102,8 @@ class ActiveSetSearch {
   bool InitializeAllLevels(const Hierarchy& hierarchy, bool adds_violated,
                            WorkingSetProblem* problem,
                            std::vector<std::vector<Side>>* side);
+  double CostOfRounding(const Hierarchy& hierarchy, int level,
+                        const std::vector<double>& y) const;
   Cost FindCost(const Hierarchy& hierarchy, int level,
                 const std::vector<double>& y);
   int FindViolated(const Hierarchy& hierarchy, const WorkingSetProblem& problem,

@@ -21,28 +21,29 @@ struct Work {
   std::int64_t multiply_adds = 0;
   /// Entries of all rows of the hierarchy, within their spans.
   int num_entries = 0;
-  /// Inequalities of the working set that was factored last, of the levels in use.
+  /// Inequalities of the working set that was solved last, of the levels in use.
   int num_active = 0;
-  /// Sum of num_active over all working sets that were factored.
+  /// Sum of num_active over all working sets that were solved with all leading levels.
   std::int64_t sum_active = 0;
+  /// Working sets that were solved with all leading levels, and with some of them.
+  int num_solved = 0, num_partly_solved = 0;
 };
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The time covers the check of the input, refinement,
 /// multipliers and the certificate. The constants are a fit to 55600 solves of 24
 /// sequences, each the fastest of 15 runs with its rows in the cache. Of the solves that
-/// are modelled with 250 to 350 us, 90 % took between 0.69 and 1.23 of this time, and 99 %
-/// less than 1.32 (docs/notebook/2026-11-29-updates.md).
-inline double ModelledSeconds(const Work& work, int iterations) {
-  constexpr double kPerSolve = 9.3e-6, kPerEntry = 4.4e-9;
-  constexpr double kPerIteration = 0.8e-6, kPerIterationAndEntry = 0.5e-9;
-  constexpr double kPerMultiplyAdd = 0.177e-9;
-  constexpr double kPerActive = 0.79e-6, kPerIterationAndActive = 0.115e-6;
+/// are modelled with 250 to 350 us, 90 % took between 0.74 and 1.13 of this time, and 99 %
+/// less than 1.21 (docs/notebook/2026-11-29-answers.md).
+inline double ModelledSeconds(const Work& work) {
+  constexpr double kPerSolve = 3.3e-6, kPerEntry = 6.0e-9, kPerActive = 0.67e-6;
+  constexpr double kPerWorkingSet = 5.5e-6, kPerPartOfOne = 4.0e-6;
+  constexpr double kPerWorkingSetAndActive = 0.104e-6;
+  constexpr double kPerMultiplyAdd = 0.162e-9;
   return kPerSolve + kPerEntry * work.num_entries +
-         kPerActive * work.num_active +
-         (kPerIteration + kPerIterationAndEntry * work.num_entries) *
-             iterations +
-         kPerIterationAndActive * static_cast<double>(work.sum_active) +
+         kPerActive * work.num_active + kPerWorkingSet * work.num_solved +
+         kPerPartOfOne * work.num_partly_solved +
+         kPerWorkingSetAndActive * static_cast<double>(work.sum_active) +
          kPerMultiplyAdd * static_cast<double>(work.multiply_adds);
 }
 
@@ -80,7 +81,7 @@ class Budget {
  private:
   bool IsLate(const Work& work) const {
     return (limits_.modelled_seconds > 0 &&
-            ModelledSeconds(work, iterations_) > limits_.modelled_seconds) ||
+            ModelledSeconds(work) > limits_.modelled_seconds) ||
            (now_ != nullptr && (*now_)() - start_ > limits_.seconds);
   }
 

@@ -44,11 +44,28 @@ inline void FindZero(const double* m, const double* end, int size, double* rest,
   }
 }
 
+/// Returns the first coefficient of the time that FindZero() computes.
+/// pre: m >= 0 > end.
+inline double FirstOfZero(const double* m, const double* end) {
+  while (*m == *end) ++m, ++end;
+  return *m / (*m - *end);
+}
+
 /// m += t (end - m). A coefficient that is rounding of its terms becomes zero.
 inline void Approach(const double* t, const double* end, int size, double* m) {
+  int highest = size - 1;  // The last coefficient of t that is not zero.
+  while (highest > 0 && t[highest] == 0) --highest;
+  if (highest == 0) {  // The usual case: t is a number.
+    for (int k = 0; k < size; ++k) {
+      const double term = t[0] * (end[k] - m[k]), sum = m[k] + term;
+      const double largest = std::max(std::abs(m[k]), std::abs(term));
+      m[k] = std::abs(sum) <= kRounding * largest ? 0 : sum;
+    }
+    return;
+  }
   for (int k = size - 1; k >= 0; --k) {
     double sum = m[k], largest = std::abs(m[k]);
-    for (int l = 0; l <= k; ++l) {
+    for (int l = std::max(k - highest, 0); l <= k; ++l) {
       const double term = t[k - l] * (end[l] - m[l]);
       sum += term;
       largest = std::max(largest, std::abs(term));

@@ -3,62 +3,92 @@
 // last.
 #include <algorithm>
 
+#include "poise/hqp/fast/infinitesimals.h"
 #include "poise/hqp/fast/parametric_search.h"
 
 namespace poise {
+namespace {
+
+// Rows with a negative multiplier of the distance are only removed if it is at least this part
+// of the most negative one. Others would often be added again. Of 0, 0.03, 0.05, 0.08, 0.1 and
+// 0.15, this value loses momentum in the fewest ticks
+// (docs/notebook/2026-11-29-answers.md).
+constexpr double kLargeMultiplier = 0.03;
+
+}  // namespace
 
 bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
                                             int limit, Budget* budget,
                                             WorkingSetProblem* problem,
-                                            Sides* side) {
+                                            Sides* side,
+                                            std::vector<double>* answer) {
   const int leading = problem->num_leading();
-  // The last solve spent its budget here. The path must advance as well.
-  if (leading < 2 || skips_near_) return true;
-  removals_.Reset(hierarchy);
-  problem->Approach(y_, leading - 1);
-  if (FindBlocking(hierarchy, *problem, leading - 1, {}, *side).side ==
-      Side::kNone) {
-    y_ = problem->y();
-    return true;
+  // If the last solve spent its budget here, the path must advance as well.
+  const bool may_move = leading > 1 && !skips_near_;
+  // The working set of a path that was paused is far from that of y.
+  const bool starts_near = may_move && is_continued_ && is_near_known_;
+  if (starts_near) {
+    problem->UseLeading(leading - 1);
+    FitToBounds(hierarchy, &near_side_);
+    problem->Start(hierarchy, near_side_, &y_);
+    *answer = y_;
+  } else {
+    problem->Start(hierarchy, *side, &y_);
+    *answer = y_;
+    if (!may_move) return true;
+    removals_.Reset(hierarchy);
+    problem->Approach(y_, leading - 1);
+    if (FindBlocking(hierarchy, *problem, leading - 1, {}, *side).side ==
+        Side::kNone) {
+      y_ = *answer = problem->y();
+      return true;
+    }
+    problem->UseLeading(leading - 1);
+    if (!is_near_known_) near_side_ = *side;
+    FitToBounds(hierarchy, &near_side_);
   }
-  skips_near_ = true;
-  center_ = y_;
-  const int known = is_near_known_ ? leading - 1 : 0;
-  std::copy(side->begin() + known, side->end(), near_side_.begin() + known);
-  FitToBounds(hierarchy, &near_side_);
-  is_near_known_ = true;
-  problem->UseLeading(leading - 1);
-  if (!FindNearest(hierarchy, limit, budget, problem, &near_side_) ||
+  std::copy(side->begin() + leading - 1, side->end(),
+            near_side_.begin() + leading - 1);
+  skips_near_ = is_near_known_ = true;
+  removals_.Reset(hierarchy);
+  if (!FindNearest(hierarchy, limit, budget, !starts_near, problem,
+                   &near_side_) ||
       !budget->Take(limit, problem->work())) {
     Pause(*side);
     *side = near_side_;
     return false;
   }
+  *answer = y_;
   problem->UseLeading(leading);
   problem->SolveLeading(hierarchy, *side);
   return true;
 }
 
-// Moves y to the optimum of the leading levels that is closest to center_. There, few
-// rows have a positive multiplier, so that rows with a negative one are removed
-// together.
+// Moves y to an optimum of the leading levels near it. This is the first optimum of a
+// working set that violates no bound. If `is_closest`, or if a level is deficient, that
+// working set must have no large negative multiplier either. Few rows have a positive
+// multiplier there, so that rows with a negative one are removed together.
 bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
-                                   Budget* budget, WorkingSetProblem* problem,
-                                   Sides* side) {
+                                   Budget* budget, bool is_closest,
+                                   WorkingSetProblem* problem, Sides* side) {
   const int num_levels = problem->num_leading();
+  center_ = y_;
   for (Change last;;) {
     if (!budget->Take(limit, problem->work())) return false;
     problem->SolveLeading(hierarchy, *side);
     problem->Approach(center_);
-    problem->FindMultipliersOfApproach(center_);
-    if (RemoveNegative(*problem, num_levels + 1, last, side)) {
-      last = {};
-      continue;
-    }
     const Blocking blocking =
         FindBlocking(hierarchy, *problem, num_levels, last, *side);
+    const bool blocks = blocking.side != Side::kNone;
+    if (blocks || is_closest || !problem->meets_leading()) {
+      problem->FindMultipliersOfApproach(center_);
+      if (RemoveNegative(*problem, num_levels + 1, last, side)) {
+        last = {};
+        continue;
+      }
+    }
     StepTo(problem->y(), blocking.time);
-    if (blocking.side == Side::kNone) return true;
+    if (!blocks) return true;
     last = Add(blocking, side);
     // Where one row blocks, others are likely to block next, also those that have been
     // removed together.
@@ -66,15 +96,27 @@ bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
   }
 }
 
-// Removes all rows with a negative multiplier. Returns whether there was one.
+// Removes rows with a negative multiplier: all where it is that of a level, and of those
+// where it is that of the distance, the ones with at least kLargeMultiplier of the most
+// negative one. Returns whether there was one.
 bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
                                       int size, const Change& last,
                                       Sides* side) {
   bool any = false;
-  for (int a = 0; a < problem.leading().num_rows(); ++a) {
-    if (!MayRemove(problem, size, last, *side, a)) continue;
-    (void)Remove({problem.row(a).level, problem.row(a).index}, side);
-    any = true;
+  double most_negative = 0;
+  for (const bool removes : {false, true}) {
+    for (int a = 0; a < problem.leading().num_rows(); ++a) {
+      if (!MayRemove(problem, size, last, *side, a)) continue;
+      any = true;
+      const bool is_of_level = infinitesimals::Sign(end_.data(), size - 1) < 0;
+      const double multiplier = is_of_level ? 0 : end_[size - 1];
+      if (!removes) {
+        most_negative = std::min(most_negative, multiplier);
+      } else if (is_of_level ||
+                 multiplier <= kLargeMultiplier * most_negative) {
+        (void)Remove({problem.row(a).level, problem.row(a).index}, side);
+      }
+    }
   }
   return any;
 }

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "poise/hqp/fast/parametric_search.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solution.h"
+#include "poise/hqp/solver.h"
 #include "poise/tests/util/path_between.h"
 
 namespace poise {
@@ -99,7 +101,7 @@ Eigen::VectorXd FindNearest(const Hierarchy& hierarchy,
 // The point is the closest one, unless the optimum of the working set violates no
 // bound: then no path is needed, and it may be farther away.
 TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
-  int closest = 0;
+  int closest = 0, followed = 0;
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     FirstLevels draw(seed);
@@ -111,6 +113,7 @@ TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
     const Sides side = search.side();
     ASSERT_TRUE(search.MeetLevelsBeforeLast(hierarchy));
     EXPECT_EQ(search.side(), side);
+    EXPECT_EQ(search.answer(), search.y());
     const double tolerance = kSameY * (1 + from.norm());
     EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
     const double distance = (search.y() - from).norm();
@@ -119,10 +122,12 @@ TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
     closest += distance <= least + tolerance;
     // The path itself goes on, for the same working set. Only with a limit of time does a
     // solver call MeetLevelsBeforeLast().
-    EXPECT_TRUE(search.FollowFromHere(hierarchy, PathBetween::kEnough, 1));
+    if (!search.FollowFromHere(hierarchy, PathBetween::kEnough, 1)) continue;
+    ++followed;
     EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
   }
   EXPECT_GT(closest, 80);
+  EXPECT_GT(followed, 80);
 }
 
 // The sum of six bounded variables must become 7, and y is to stay close to zero. One
@@ -150,6 +155,75 @@ TEST(NearestOptimum, AddsTheBoundsThatBlockNext) {
   ASSERT_TRUE(search.MeetLevelsBeforeLast(at(7), 5));
   const Eigen::Matrix<double, 6, 1> y{1, 1.02, 1.04, 1.3, 1.32, 1.32};
   EXPECT_NEAR((search.y() - y).norm(), 0, kSameY);
+}
+
+// Level 0 fixes y_0 + y_2 and y_1 + y_3, level 1 bounds y_0 and y_1 by 1, and both are at
+// their bounds at first. Then the sums get smaller, and y_0 - y_1 must not exceed -0.5.
+TEST(NearestOptimum, RemovesRowsWithALargeNegativeMultiplierFirst) {
+  const std::vector<LevelCapacity> capacity{{2, 0}, {0, 3}, {4, 0}};
+  const auto at = [&](double sum, double other_sum, double most) {
+    Hierarchy hierarchy(4, capacity);
+    EqualityBlock sums = hierarchy.AddEqualities(0, 2);
+    sums.B << 1, 0, 1, 0, 0, 1, 0, 1;
+    sums.b << -sum, -other_sum;
+    InequalityBlock limits = hierarchy.AddInequalities(1, 3);
+    limits.C << 1, 0, 0, 0, 0, 1, 0, 0, 1, -1, 0, 0;
+    limits.lower.setConstant(-kInfinity);
+    limits.upper << 1, 1, most;
+    EqualityBlock task = hierarchy.AddEqualities(2, 4);
+    task.B.setIdentity();
+    task.B(0, 1) = 0.1;  // Not a diagonal level.
+    task.b << -5, -5, 0, 0;
+    hierarchy.FindSpans();
+    return hierarchy;
+  };
+  // The bound of y_1 has 0.01 or 0.36 of the multiplier of that of y_0, which is removed in
+  // the first iteration. One more solves the levels again.
+  for (const double shift : {0.1, 4.0}) {
+    SCOPED_TRACE(shift);
+    const bool is_large = shift > 1;
+    PathBetween search(4, capacity), other(4, capacity);
+    search.Begin(at(1, 1, 10));
+    other.Begin(at(1, 1, 10));
+    ASSERT_NEAR(search.y()[0] + search.y()[1], 2, kSameY);
+    const Hierarchy end = at(1 - 22, 1 - 2 * shift, -0.5);
+    EXPECT_EQ(other.MeetLevelsBeforeLast(end, 3), is_large);
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(end, 4));
+    EXPECT_NEAR(search.y()[0], 1 - 11, 20 * kSameY);
+    EXPECT_NEAR(search.y()[1], 1 - shift, 20 * kSameY);
+  }
+}
+
+// The targets -1 and -3 of level 1 contradict each other, and y_0 = -2 is the optimum. The
+// working set has the bound y_0 <= 0 at first, which keeps y_0 from it. Its multiplier of
+// level 1 is negative, but that of the distance to y = (2, 0) positive.
+TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
+  const std::vector<LevelCapacity> capacity{{1, 2}, {2, 0}, {3, 0}};
+  const auto at = [&](double sum, double bound, double target) {
+    Hierarchy hierarchy(3, capacity);
+    EqualityBlock first = hierarchy.AddEqualities(0, 1);
+    first.B << 1, 0, 1;
+    first.b << -sum;
+    InequalityBlock limits = hierarchy.AddInequalities(0, 2);
+    limits.C << 1, 0, 0, 0, 1, 0;
+    limits.lower.setConstant(-kInfinity);
+    limits.upper << 0, bound;
+    EqualityBlock targets = hierarchy.AddEqualities(1, 2);
+    targets.B << 1, 0, 0, 1, 0, 0;
+    targets.b << target + 1, target + 3;
+    EqualityBlock task = hierarchy.AddEqualities(2, 3);
+    task.B.setIdentity();
+    task.B(0, 1) = 0.1;  // Not a diagonal level.
+    hierarchy.FindSpans();
+    return hierarchy;
+  };
+  PathBetween search(3, capacity);
+  search.Begin(at(0, 1, -10));
+  ASSERT_NEAR(search.y()[0], 0, kSameY);
+  ASSERT_EQ(search.side()[0][0], Side::kUpper);
+  ASSERT_TRUE(search.MeetLevelsBeforeLast(at(4, -1, 0)));
+  EXPECT_NEAR(search.y()[0], -2, kSameY);
+  EXPECT_NEAR(search.y()[1], -1, kSameY);
 }
 
 // Bounds that become infinite while the budget ends do not stay in the working set.
@@ -198,6 +272,70 @@ TEST(NearestOptimum, AdvancesThePathAfterMeetingLevels) {
   }
   EXPECT_GT(spent, 50);
   EXPECT_GT(spent_again, 25);
+}
+
+// If a path is continued, the search begins with the working set of the last point. It then
+// mostly finds a point in one iteration, and solves the levels again in a second one.
+TEST(NearestOptimum, BeginsWithTheLastPointIfThePathIsContinued) {
+  int longer = 0, paused = 0, at_once = 0;
+  for (int seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    FirstLevels draw(seed);
+    PathBetween search(FirstLevels::kVariables, FirstLevels::capacity());
+    PathBetween other(FirstLevels::kVariables, FirstLevels::capacity());
+    const Hierarchy first = draw.Draw(), hierarchy = draw.Draw();
+    search.Begin(first);
+    other.Begin(first);
+    if (other.MeetLevelsBeforeLast(hierarchy, 2)) continue;
+    ++longer;
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(hierarchy));
+    // The path is followed for one iteration, and paused.
+    if (search.FollowFromHere(hierarchy, 1)) continue;
+    ++paused;
+    search.path().Pause(search.side());
+    if (!search.MeetLevelsBeforeLast(hierarchy, 2)) continue;
+    ++at_once;
+    // The levels of the path are only solved once.
+    EXPECT_EQ(search.problem().work().num_solved, 1);
+    EXPECT_LE(Violation(hierarchy, search.answer()),
+              kSameY * (1 + search.answer().norm()));
+  }
+  EXPECT_GT(longer, 20);
+  EXPECT_GT(at_once, 0.8 * paused) << paused;
+}
+
+// Bounds that keep y_1 at 5 are forgotten by the time when y_0 must move: y_1 stays at its
+// optimum, whatever the working set of the last move. After Forget(), nothing is known.
+TEST(NearestOptimum, DoesNotReturnToAnOldWorkingSet) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {3, 0}};
+  const auto at = [&](double most, double least) {
+    Hierarchy hierarchy(3, capacity);
+    InequalityBlock limits = hierarchy.AddInequalities(0, 2);
+    limits.C << 1, 0, 0, 0, 1, 0;
+    limits.lower << -kInfinity, least;
+    limits.upper << most, kInfinity;
+    EqualityBlock task = hierarchy.AddEqualities(1, 3);
+    task.B.setIdentity();
+    task.B(0, 2) = 0.1;  // Not a diagonal level.
+    hierarchy.FindSpans();
+    return hierarchy;
+  };
+  for (const bool forgets : {false, true}) {
+    SCOPED_TRACE(forgets);
+    Solver solver(3, capacity);
+    Solution solution(3, capacity);
+    const auto solve = [&](double most, double least, double seconds) {
+      solver.max_modelled_seconds = seconds;
+      return solver.Solve(at(most, least), &solution);
+    };
+    ASSERT_EQ(solve(1000, -10, 1), Status::kOptimal);
+    ASSERT_EQ(solve(-1, 5, 1), Status::kOptimal);
+    ASSERT_NEAR(solution.y[1], 5, kSameY);
+    if (forgets) solver.Forget();
+    ASSERT_EQ(solve(1000, -10, 1), Status::kOptimal);
+    (void)solve(-0.1, -10, 1e-9);
+    EXPECT_NEAR(solution.y[1], 0, kSameY);
+  }
 }
 
 }  // namespace

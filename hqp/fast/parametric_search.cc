@@ -30,10 +30,10 @@ constexpr int kMaxRemoved = 4;
 // (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongRun = 4;
 
-// A path without a limit of time is given up after so many iterations in a row that add and
-// remove rows in turn. On recorded robots, such a path goes from vertex to vertex in steps of
-// 1e-7 to 1e-2 of its length. The primal method takes longer steps. With 12, some falls take
-// longer (docs/notebook/2026-11-29-alternations.md).
+// A path is given up after so many iterations of one solve in a row that add and remove rows
+// in turn. On recorded robots, such a path goes from vertex to vertex in steps of 1e-7 to
+// 1e-2 of its length. The primal method takes longer steps. With 12, some falls take longer
+// (docs/notebook/2026-11-29-alternations.md).
 constexpr int kMaxAlternations = 16;
 
 }  // namespace
@@ -62,7 +62,7 @@ void ParametricSearch::Remember(const WorkingSetProblem& problem,
                                 const Sides& side) {
   side_ = side;
   is_known_ = true;
-  is_paused_ = is_near_known_ = skips_near_ = false;
+  is_paused_ = skips_near_ = false;
   start_.Clear();
   const int size = problem.num_levels() + 1;
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
@@ -110,9 +110,8 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       y_ = problem->y();
       return true;
     }
-    const bool alternates =
-        !budget->has_time_limit() && run.alternations >= kMaxAlternations;
-    if (alternates || !budget->Take(limit, problem->work())) {
+    if (run.alternations >= kMaxAlternations ||
+        !budget->Take(limit, problem->work())) {
       side_ = *side;
       return false;
     }
@@ -319,6 +318,10 @@ RowIndex ParametricSearch::FindRemoval(const WorkingSetProblem& problem,
     const RowIndex row = {problem.row(a).level, problem.row(a).index};
     const double* start = start_.At(row.level, row.row);
     if (infinitesimals::Sign(start, size) > 0) {
+      if (removed.level >= 0 &&
+          infinitesimals::FirstOfZero(start, end_.data()) > removal_time_[0]) {
+        continue;
+      }
       infinitesimals::FindZero(start, end_.data(), size, scratch_.data(),
                                time_.data());
     } else {
@@ -341,9 +344,26 @@ bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
                                  const Change& last, const Sides& side, int a) {
   const WorkingSetProblem::Row& row = problem.row(a);
   const RowIndex index = {row.level, row.index};
-  return row.is_inequality && removals_.MayChange(index) &&
-         !(index == last.added) &&
-         infinitesimals::Sign(EndMultiplier(problem, size, side, a), size) < 0;
+  if (!row.is_inequality || !removals_.MayChange(index) ||
+      index == last.added ||
+      !IsNegativeAtEnd(problem, size, side[row.level][row.index], a)) {
+    return false;
+  }
+  (void)EndMultiplier(problem, size, side, a);
+  return true;
+}
+
+// Returns whether the multiplier of row a at the end of the path is negative: its first
+// coefficient that is not zero.
+bool ParametricSearch::IsNegativeAtEnd(const WorkingSetProblem& problem,
+                                       int size, Side side, int a) {
+  double coefficient = 0;
+  for (int level = problem.row(a).level; level < size && coefficient == 0;
+       ++level) {
+    coefficient =
+        problem.Multiplier(a, level, side, tolerances::kZeroMultiplier);
+  }
+  return coefficient < 0;
 }
 
 // Computes the multiplier of row a at the end of the path, with `size` coefficients.

@@ -44,12 +44,15 @@ class ParametricSearch {
   void Remember(const WorkingSetProblem& problem, const Sides& side);
 
   /// Forgets the last solution. Until the next Remember(), there is no path.
-  void Forget() { is_known_ = is_paused_ = false; }
+  void Forget() {
+    is_known_ = is_paused_ = is_near_known_ = skips_near_ = false;
+  }
   bool is_known() const { return is_known_; }
 
-  /// Begins a path at y, or continues the last one if it was paused.
+  /// Begins a path at y, or continues the last one from there if it was paused.
   void Begin(const std::vector<double>& y) {
-    if (!is_paused_) y_ = y;
+    y_ = y;
+    is_continued_ = is_paused_;
     is_paused_ = false;
   }
   /// Interrupts a path. Until Begin(), Resume() replaces a working set by
@@ -66,27 +69,30 @@ class ParametricSearch {
 
   /// Follows the path, from the working set `side`, for which `problem` is solved.
   /// Returns whether the optimum has been reached: it is y(), and the solution of
-  /// `problem`. If not, the budget, or `limit` iterations of it, did not suffice, or a path
-  /// without a limit of time was given up, because rows were added and removed in turn.
+  /// `problem`. If not, the budget, or `limit` iterations of it, did not suffice, or the path
+  /// was given up, because rows were added and removed in turn.
   /// `problem` is then not solved for the last change of `side`.
   /// pre: is_known().
   [[nodiscard]] bool Follow(const Hierarchy& hierarchy, int limit,
                             Budget* budget, WorkingSetProblem* problem,
                             Sides* side);
 
-  /// Moves y() to a point that meets all leading levels but the last: to the closest
-  /// optimum of the working set `side`, for which the leading levels of `problem` are
-  /// solved, or, if that violates a bound, to the closest optimum of these levels. The
-  /// multipliers of `side` are not checked. Returns true if the point has been reached.
-  /// Returns true without a move if there are fewer than two leading levels, or if the
-  /// last call spent its budget.
-  /// The leading levels of `problem` are then solved for `side`. Returns false if the
-  /// budget, or `limit` iterations of it, did not suffice. Then the path is paused, and
-  /// `side` is the working set of these levels.
+  /// Solves the leading levels of `problem` for the working set `side`, as
+  /// WorkingSetProblem::Start() does with y(). Then moves y() to a point that
+  /// meets all leading levels but the last, and stores it in `answer`: it remains if the
+  /// path is cut off. It is the optimum of these levels and of `side` that is closest to
+  /// y(), or, if that violates a bound, an optimum near y() that is found from the
+  /// working set of the last call. A path that is continued begins with the latter, because
+  /// its `side` is far from y(). The multipliers of `side` are not checked.
+  /// Returns true if the point has been reached. Returns true without a move if there are
+  /// fewer than two leading levels, or if the last call spent its budget. Returns false if
+  /// the budget, or `limit` iterations of it, did not suffice. Then the path is paused,
+  /// `side` is the working set of these levels, and `answer` meets the first levels only.
   [[nodiscard]] bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit,
                                           Budget* budget,
                                           WorkingSetProblem* problem,
-                                          Sides* side);
+                                          Sides* side,
+                                          std::vector<double>* answer);
 
  private:
   struct Blocking {
@@ -121,7 +127,7 @@ class ParametricSearch {
 
   void TakeWorkingSet(const Sides& side);
   bool FindNearest(const Hierarchy& hierarchy, int limit, Budget* budget,
-                   WorkingSetProblem* problem, Sides* side);
+                   bool is_closest, WorkingSetProblem* problem, Sides* side);
   bool RemoveNegative(const WorkingSetProblem& problem, int size,
                       const Change& last, Sides* side);
   bool RemoveVanished(const WorkingSetProblem& problem, int size, Change* last,
@@ -149,6 +155,8 @@ class ParametricSearch {
                        const Change& last, const Sides& side);
   bool MayRemove(const WorkingSetProblem& problem, int size, const Change& last,
                  const Sides& side, int a);
+  static bool IsNegativeAtEnd(const WorkingSetProblem& problem, int size,
+                              Side side, int a);
   const double* EndMultiplier(const WorkingSetProblem& problem, int size,
                               const Sides& side, int a);
   void Advance(const WorkingSetProblem& problem, int size, const Sides& side);
@@ -157,14 +165,13 @@ class ParametricSearch {
   Change Add(const Blocking& blocking, Sides* side);
 
   int n_;
-  bool is_known_ = false, is_paused_ = false;
+  bool is_known_ = false, is_paused_ = false, is_continued_ = false;
   std::vector<double> y_;
   /// Multipliers at the time that has been reached. Rows beyond num_variables count
   /// with the multiplier 0.
   RowNumbers start_;
   Sides side_;  ///< Working set of start_.
-  /// The working set of MeetLevelsBeforeLast(), if it has been called since the last
-  /// optimum.
+  /// The working set that MeetLevelsBeforeLast() has found last.
   Sides near_side_;
   bool is_near_known_ = false;
   /// The next MeetLevelsBeforeLast() makes no move. Each search for the nearest point

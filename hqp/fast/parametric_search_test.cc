@@ -254,22 +254,26 @@ TEST_F(PolygonTest, IsFollowedIfTwoRowsInARowChangeInOneDirection) {
   EXPECT_NEAR((search.y().head<2>() - Middle(15)).norm(), 0, 10 * kTolerance);
 }
 
-// A path with a limit of time goes on in the next solve, so it is not given up.
-TEST_F(PolygonTest, IsFollowedToTheEndWithALimitOfTime) {
-  PathBetween search(2, capacity_);
-  search.Begin(Towards(0));
-  const Hierarchy end = Towards(15);
-  search.Start(end);
-  ASSERT_TRUE(search.FollowFromHere(end, PathBetween::kEnough, 1));
-  EXPECT_NEAR((search.y() - Middle(15)).norm(), 0, 10 * kTolerance);
+// A limit of time that is not reached changes nothing.
+TEST_F(PolygonTest, IsGivenUpWithALimitOfTimeAsWell) {
+  for (const int corners : {3, 15}) {
+    PathBetween search(2, capacity_);
+    search.Begin(Towards(0));
+    const Hierarchy end = Towards(corners);
+    search.Start(end);
+    EXPECT_EQ(search.FollowFromHere(end, PathBetween::kEnough, 1), corners < 4);
+  }
 }
 
 TEST_F(PolygonTest, IsSolvedAfterThePathIsGivenUp) {
   Solver solver(2, capacity_);
   Solution solution(2, capacity_);
-  for (const int i : {0, 15, 30, 16, 31}) {
-    ASSERT_EQ(solver.Solve(Towards(i), &solution), Status::kOptimal);
-    EXPECT_NEAR((solution.y - Middle(i)).norm(), 0, 10 * kTolerance);
+  for (const double limit : {0, 1}) {
+    solver.max_modelled_seconds = limit;
+    for (const int i : {0, 15, 30, 16, 31}) {
+      ASSERT_EQ(solver.Solve(Towards(i), &solution), Status::kOptimal);
+      EXPECT_NEAR((solution.y - Middle(i)).norm(), 0, 10 * kTolerance);
+    }
   }
 }
 

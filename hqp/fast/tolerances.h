@@ -32,9 +32,10 @@ constexpr double kSolutionRounding = 1e-13;
 constexpr double kZeroMultiplier = 1e-13;
 
 /// Search: a factor of a combination of rows below this part of the largest one, or in an
-/// exchange below this part of the row's length, is zero. A row that is removed for a tiny factor would be far inside its bound at the next
-/// optimum. Chosen: 1e-7 and 1e-2 change the worst solves of falls by factors from 0.9 to
-/// 1.9 (docs/notebook/2026-11-29-dependent-rows.md).
+/// exchange below this part of the row's length, is zero. A row that is removed for a tiny
+/// factor would be far inside its bound at the next optimum. Chosen: 1e-7 and 1e-2 change
+/// the worst solves of falls by factors from 0.9 to 1.9
+/// (docs/notebook/2026-11-29-dependent-rows.md).
 constexpr double kZeroFactor = 1e-4;
 
 /// Input: a row is zero if its weight times its squared norm is below this. The

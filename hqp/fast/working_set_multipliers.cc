@@ -116,15 +116,21 @@ WorkingSetProblem::Combination WorkingSetProblem::FindCombination(
     const double* row) {
   const int rank = leading_.rank();
   leading_.Project(row, rank, gradient_.data());
+  const double squared_length = kernels::SquaredNorm(row, n_);
+  const double squared_remainder =
+      squared_length - kernels::SquaredNorm(gradient_.data(), rank);
+  constexpr double kLarge =
+      tolerances::kReorthogonalize * tolerances::kReorthogonalize;
+  if (squared_remainder > kLarge * squared_length) {
+    return {nullptr, std::sqrt(squared_remainder)};
+  }
   // A difference of squares would not resolve a remainder below 1e-8.
   for (int e = 0; e < rank; ++e) nu_[e] = -gradient_[e];
   std::copy_n(row, n_, change_.begin());
   leading_.AddCombination(nu_.data(), rank, change_.data());
   const double remainder = std::sqrt(kernels::SquaredNorm(change_.data(), n_));
-  const double length = std::sqrt(kernels::SquaredNorm(row, n_));
-  if (remainder > tolerances::kIndependentPart * length) {
+  if (remainder > tolerances::kIndependentPart * std::sqrt(squared_length))
     return {nullptr, remainder};
-  }
   leading_.SolveDual(leading_.num_levels(), gradient_.data(), nu_.data());
   return {nu_.data(), remainder};
 }

@@ -98,8 +98,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   *failed_level = 0;
   before_ = leading_.multiply_adds() + diagonal_.multiply_adds();
-  num_entries_ = num_active_ = 0;
-  sum_active_ = 0;
+  work_ = {};
   if (hierarchy.num_variables() != n_) return Status::kBadInput;
   int inequalities = 0;  // These are all in leading levels.
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
@@ -116,7 +115,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
       norm = AbsoluteSum(B.data() + i * n_, hierarchy.B_span(level)[i]);
-      num_entries_ += hierarchy.B_span(level)[i].size;
+      work_.num_entries += hierarchy.B_span(level)[i].size;
       zero += (norm + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
       if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
@@ -125,7 +124,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < C.rows(); ++i) {
       double& norm = norm_[norm_begin_[level] + i];
       norm = AbsoluteSum(C.data() + i * n_, hierarchy.C_span(level)[i]);
-      num_entries_ += hierarchy.C_span(level)[i].size;
+      work_.num_entries += hierarchy.C_span(level)[i].size;
       zero += norm * 0;
       if (norm * norm < tolerances::kZeroRow) norm = 0;
       if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
@@ -153,6 +152,7 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   while (num_leading_ > 0 && IsDiagonal(hierarchy, num_leading_ - 1)) {
     --num_leading_;
   }
+  planned_leading_ = num_leading_;
   for (int level = num_leading_; level < num_levels; ++level) {
     diagonal_.AddLevel();
     for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
@@ -405,16 +405,21 @@ void WorkingSetProblem::SolveLeading(
   is_planned_ = false;
   is_factored_ = true;
   is_diagonal_solved_ = false;
-  CountActive();
+  CountWork();
 }
 
-// Counts the inequalities of the working set.
-void WorkingSetProblem::CountActive() {
-  num_active_ = 0;
+// Counts the working set that has been solved, and its inequalities.
+void WorkingSetProblem::CountWork() {
+  work_.num_active = 0;
   for (int a = 0; a < leading_.num_rows(); ++a) {
-    num_active_ += rows_[a].is_inequality ? 1 : 0;
+    work_.num_active += rows_[a].is_inequality ? 1 : 0;
   }
-  sum_active_ += num_active_;
+  if (num_leading_ < planned_leading_) {
+    ++work_.num_partly_solved;
+  } else {
+    ++work_.num_solved;
+    work_.sum_active += work_.num_active;
+  }
 }
 
 // Returns the number of factored levels before the first deficient one.
@@ -426,25 +431,20 @@ int WorkingSetProblem::NumMet() const {
 
 void WorkingSetProblem::Start(const Hierarchy& hierarchy,
                               const std::vector<std::vector<Side>>& side,
-                              std::vector<double>* y,
-                              std::vector<double>* other_y) {
-  const auto move = [&] {
-    MoveToFirstLevels(hierarchy, y);
-    if (other_y != nullptr) MoveToFirstLevels(hierarchy, other_y);
-  };
+                              std::vector<double>* y) {
   const int num_leading = num_leading_, met = num_met_;
   const bool merges = FixesVariables(hierarchy, side);
   if (merges) {
     UseLeading(NumFirstLevels(hierarchy));
     SolveLeading(hierarchy, side);
-    move();
+    MoveToFirstLevels(hierarchy, y);
     is_factored_ = false;
     is_planned_ = true;
     num_met_ = met;
     UseLeading(num_leading);
   }
   SolveLeading(hierarchy, side);
-  if (!merges) move();
+  if (!merges) MoveToFirstLevels(hierarchy, y);
 }
 
 // Returns whether FactorMerged() can fix a variable.

@@ -71,7 +71,7 @@ class WorkingSetProblem {
   /// levels.
   void UseLeading(int num_leading);
   /// UseLeading() for all leading levels of the last Plan().
-  void UseAllLeading() { UseLeading(num_levels_ - diagonal_.num_levels() + 1); }
+  void UseAllLeading() { UseLeading(planned_leading_); }
 
   /// Leaves out the levels that the last SolveLeading() has not solved, until the
   /// next Plan().
@@ -88,10 +88,10 @@ class WorkingSetProblem {
   }
 
   /// SolveLeading() after Plan(), and MoveToFirstLevels() for y, which is the start of
-  /// a search, and for `other_y`, if there is one.
+  /// a search.
   void Start(const Hierarchy& hierarchy,
-             const std::vector<std::vector<Side>>& side, std::vector<double>* y,
-             std::vector<double>* other_y = nullptr);
+             const std::vector<std::vector<Side>>& side,
+             std::vector<double>* y);
 
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
@@ -190,10 +190,14 @@ class WorkingSetProblem {
   /// Work since Read(). Products with all rows are not in its multiply-adds: they
   /// are the same in each iteration.
   Work work() const {
-    return {leading_.multiply_adds() + diagonal_.multiply_adds() - before_,
-            num_entries_, num_active_, sum_active_};
+    Work work = work_;
+    work.multiply_adds =
+        leading_.multiply_adds() + diagonal_.multiply_adds() - before_;
+    return work;
   }
 
+  /// Returns whether no leading level that has been solved is deficient.
+  bool meets_leading() const { return NumMet() == leading_.num_levels(); }
   int num_levels() const { return num_levels_; }
   int num_leading() const { return num_leading_; }  ///< Leading levels.
   const LexicographicFactorization& leading() const { return leading_; }
@@ -223,7 +227,7 @@ class WorkingSetProblem {
 
  private:
   void AddRow(const Row& row, const double* from, double metric, int key);
-  void CountActive();
+  void CountWork();
   Row Inequality(const Hierarchy& hierarchy, int level, int i, Side side) const;
   template <typename Use>
   void ForEachRow(const Hierarchy& hierarchy, const std::vector<Side>& side,
@@ -276,10 +280,9 @@ class WorkingSetProblem {
   bool is_planned_ = false;  ///< No solution since Plan().
   bool is_factored_ = false;
   bool is_diagonal_solved_ = false;  ///< Since the last SolveLeading().
-  int num_entries_ = 0;          ///< Entries of all rows, within their spans.
-  std::int64_t before_ = 0;      ///< Multiply-adds before Read().
-  int num_active_ = 0;           ///< Work::num_active.
-  std::int64_t sum_active_ = 0;  ///< Work::sum_active.
+  int planned_leading_ = 0;          ///< Leading levels of Plan().
+  Work work_;                ///< Since Read(), but for its multiply-adds.
+  std::int64_t before_ = 0;  ///< Multiply-adds before Read().
   std::vector<std::vector<Side>> factored_;  ///< Factored working set.
   LexicographicFactorization leading_;
   DiagonalLevels diagonal_;

@@ -83,13 +83,16 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// Equalities do not count, and the sum is that of all solutions since Read().
-TEST_F(WorkingSetProblemReadTest, CountsActiveInequalities) {
+// Equalities do not count as active. The counts begin with Read(). The sum is that of all
+// solutions with both levels.
+TEST_F(WorkingSetProblemReadTest, CountsSolutionsAndActiveInequalities) {
   int failed_level;
   for (int twice = 0; twice < 2; ++twice) {
     ASSERT_EQ(problem_.Read(hierarchy_, &failed_level), Status::kOptimal);
     EXPECT_EQ(problem_.work().num_active, 0);
     EXPECT_EQ(problem_.work().sum_active, 0);
+    EXPECT_EQ(problem_.work().num_solved, 0);
+    EXPECT_EQ(problem_.work().num_partly_solved, 0);
     problem_.Plan(hierarchy_, 2);
     std::vector<std::vector<Side>> side = {{Side::kLower, Side::kNone},
                                            {Side::kLower, Side::kUpper}};
@@ -100,6 +103,12 @@ TEST_F(WorkingSetProblemReadTest, CountsActiveInequalities) {
     problem_.SolveLeading(hierarchy_, side);
     EXPECT_EQ(problem_.work().num_active, 1);
     EXPECT_EQ(problem_.work().sum_active, 3 + 1);
+    problem_.UseLeading(1);
+    problem_.SolveLeading(hierarchy_, side);
+    EXPECT_EQ(problem_.work().num_active, 1);
+    EXPECT_EQ(problem_.work().sum_active, 3 + 1);
+    EXPECT_EQ(problem_.work().num_solved, 2);
+    EXPECT_EQ(problem_.work().num_partly_solved, 1);
   }
 }
 

@@ -454,7 +454,7 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
   // The last left singular vector is orthogonal to all rows. A part of 1e-3 of the row is
   // allowed to be so.
   const Eigen::VectorXd outside = svd.matrixU().col(n_ - 1);
-  for (const double part : {0.5, 2.0}) {
+  for (const double part : {0.5, 2.0, 1000.0}) {
     const Eigen::VectorXd other =
         row + part * tolerances::kIndependentPart * row.norm() * outside;
     const auto found = problem_.FindCombination(other.data());
@@ -582,9 +582,7 @@ TEST(FixedVariablesOfAWorkingSet, GiveTheOptimumOfANewProblem) {
       }
       problem.Plan(hierarchy, levels);
       std::vector<double> moved(n, 1), expected(n, 1);
-      std::vector<double> other = moved;
-      problem.Start(hierarchy, sides, &moved, &other);
-      EXPECT_EQ(other, moved);
+      problem.Start(hierarchy, sides, &moved);
       problem.SolveDiagonal();
       const int fixed = problem.leading().variables().size();
       num_fixed += fixed;

@@ -14,6 +14,7 @@ PathBetween::PathBetween(int num_variables,
       problem_(num_variables, capacity),
       search_(num_variables, capacity),
       path_(num_variables, capacity),
+      answer_(num_variables),
       side_(NoSides(capacity)) {}
 
 void PathBetween::Begin(const Hierarchy& hierarchy) {
@@ -52,10 +53,13 @@ bool PathBetween::FollowFromHere(const Hierarchy& hierarchy, int limit,
 
 bool PathBetween::MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit) {
   Budget budget({limit}, &no_clock_);
-  Start(hierarchy);
+  Read(hierarchy);
   const CountMalloc count;
-  const bool is_met =
-      path_.MeetLevelsBeforeLast(hierarchy, limit, &budget, &problem_, &side_);
+  problem_.Plan(hierarchy, hierarchy.num_levels());
+  answer_ = path_.y();
+  path_.Begin(answer_);
+  const bool is_met = path_.MeetLevelsBeforeLast(hierarchy, limit, &budget,
+                                                 &problem_, &side_, &answer_);
   EXPECT_EQ(count.allocations(), 0);
   return is_met;
 }

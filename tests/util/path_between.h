@@ -33,11 +33,15 @@ class PathBetween {
   bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough,
                       double modelled_seconds = 0);
 
-  /// ParametricSearch::MeetLevelsBeforeLast() after Start().
+  /// ParametricSearch::MeetLevelsBeforeLast() after ParametricSearch::Begin() with y().
   bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit = kEnough);
 
   Eigen::VectorXd y() const {
     return Eigen::VectorXd::Map(path_.y().data(), n_);
+  }
+  /// The answer of the last MeetLevelsBeforeLast().
+  Eigen::VectorXd answer() const {
+    return Eigen::VectorXd::Map(answer_.data(), n_);
   }
   ParametricSearch& path() { return path_; }
   const WorkingSetProblem& problem() const { return problem_; }
@@ -55,6 +59,7 @@ class PathBetween {
   WorkingSetProblem problem_;
   ActiveSetSearch search_;
   ParametricSearch path_;
+  std::vector<double> answer_;
   ParametricSearch::Sides side_;
 };
 
