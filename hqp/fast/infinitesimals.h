@@ -53,16 +53,9 @@ inline double FirstOfZero(const double* m, const double* end) {
 
 /// m += t (end - m). A coefficient that is rounding of its terms becomes zero.
 inline void Approach(const double* t, const double* end, int size, double* m) {
-  int highest = size - 1;  // The last coefficient of t that is not zero.
+  // The last coefficient of t that is not zero. Mostly, t is a plain number.
+  int highest = size - 1;
   while (highest > 0 && t[highest] == 0) --highest;
-  if (highest == 0) {  // The usual case: t is a number.
-    for (int k = 0; k < size; ++k) {
-      const double term = t[0] * (end[k] - m[k]), sum = m[k] + term;
-      const double largest = std::max(std::abs(m[k]), std::abs(term));
-      m[k] = std::abs(sum) <= kRounding * largest ? 0 : sum;
-    }
-    return;
-  }
   for (int k = size - 1; k >= 0; --k) {
     double sum = m[k], largest = std::abs(m[k]);
     for (int l = std::max(k - highest, 0); l <= k; ++l) {

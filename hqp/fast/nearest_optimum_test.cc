@@ -221,9 +221,21 @@ TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
   search.Begin(at(0, 1, -10));
   ASSERT_NEAR(search.y()[0], 0, kSameY);
   ASSERT_EQ(search.side()[0][0], Side::kUpper);
-  ASSERT_TRUE(search.MeetLevelsBeforeLast(at(4, -1, 0)));
-  EXPECT_NEAR(search.y()[0], -2, kSameY);
-  EXPECT_NEAR(search.y()[1], -1, kSameY);
+  // A path that is continued begins with y_0 and y_1 at their bounds, and violates none.
+  for (const bool is_continued : {false, true}) {
+    SCOPED_TRACE(is_continued);
+    if (is_continued) {
+      search.Begin(at(0, 1, -10));
+      const Hierarchy before = at(4, -1, -10);
+      ASSERT_TRUE(search.MeetLevelsBeforeLast(before));
+      ASSERT_NEAR(search.y()[0], 0, kSameY);
+      ASSERT_FALSE(search.FollowFromHere(before, 0));
+      search.path().Pause(search.side());
+    }
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(at(4, -1, 0)));
+    EXPECT_NEAR(search.y()[0], -2, kSameY);
+    EXPECT_NEAR(search.y()[1], -1, kSameY);
+  }
 }
 
 // Bounds that become infinite while the budget ends do not stay in the working set.
@@ -333,6 +345,7 @@ TEST(NearestOptimum, DoesNotReturnToAnOldWorkingSet) {
     ASSERT_NEAR(solution.y[1], 5, kSameY);
     if (forgets) solver.Forget();
     ASSERT_EQ(solve(1000, -10, 1), Status::kOptimal);
+    // No solve is modelled with 1e-9 s, so that this one is cut off.
     (void)solve(-0.1, -10, 1e-9);
     EXPECT_NEAR(solution.y[1], 0, kSameY);
   }
