@@ -79,7 +79,8 @@ class Certifier {
   void FindNormsOfMultipliers(const Hierarchy& hierarchy, int level,
                               const Solution& solution);
   double FreeChange(const Hierarchy& hierarchy, int level, int above, int i,
-                    double mu, double radius, const Solution& solution) const;
+                    double mu, double radius, double norm_y,
+                    const Solution& solution) const;
   void FindSums(const Hierarchy& hierarchy, int level,
                 const Eigen::VectorXd* p);
   template <typename Use>

@@ -176,12 +176,13 @@ void Certifier::FindNormsOfMultipliers(const Hierarchy& hierarchy, int level,
                                        const Solution& solution) {
   for (int above = 0; above < level; ++above) {
     const LevelMultipliers& of = solution.levels[level].multipliers[above];
+    const auto weight = hierarchy.weight(above);
     double squares = 0;
-    for (int i = 0; i < hierarchy.num_equalities(above); ++i) {
+    for (int i = 0, rows = hierarchy.num_equalities(above); i < rows; ++i) {
       const double lambda = of.equality[i];
-      if (lambda != 0) squares += lambda * lambda / hierarchy.weight(above)[i];
+      if (lambda != 0) squares += lambda * lambda / weight[i];
     }
-    for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
+    for (int i = 0, rows = hierarchy.num_inequalities(above); i < rows; ++i) {
       squares += of.inequality[i] * of.inequality[i];
     }
     multiplier_norm_(level, above) = std::sqrt(squares);
@@ -193,11 +194,14 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
                               double radius, const Solution& solution) {
   const double norm = multiplier_norm_(level, above);
   if (norm == 0) return 0;
+  const Eigen::VectorXd& mu =
+      solution.levels[level].multipliers[above].inequality;
+  const double norm_y = solution.y.norm();
   double gain = 0;
-  for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
-    const double mu = solution.levels[level].multipliers[above].inequality[i];
-    if (mu != 0)
-      gain += FreeChange(hierarchy, level, above, i, mu, radius, solution);
+  for (int i = 0, rows = hierarchy.num_inequalities(above); i < rows; ++i) {
+    if (mu[i] == 0) continue;
+    gain +=
+        FreeChange(hierarchy, level, above, i, mu[i], radius, norm_y, solution);
   }
   double of_slacks = norm * change_[above];
   if (of_slacks > kSharpEnough * CostScale(level) && !std::isinf(norm)) {
@@ -216,7 +220,7 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
 
 // Largest mu C_i d of row i of a level `above`, but for the change of its slack.
 double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
-                             int i, double mu, double radius,
+                             int i, double mu, double radius, double norm_y,
                              const Solution& solution) const {
   const LevelRows& rows = rows_[above];
   // A row with a slack at the optimum as well changes with this slack only.
@@ -228,8 +232,8 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
   const double bound =
       mu > 0 ? hierarchy.upper(above)[i] : hierarchy.lower(above)[i];
   const double side = mu > 0 ? 1 : -1;
-  const double size = rows.norm[i] * solution.y.norm() +
-                      (std::isinf(bound) ? 0 : std::abs(bound));
+  const double size =
+      rows.norm[i] * norm_y + (std::isinf(bound) ? 0 : std::abs(bound));
   double distance = side * (bound - rows.value[i]);
   double rounding = RowSumRounding(span.size) * size;
   if (std::abs(mu) * rounding > kSharpEnough * CostScale(level)) {

@@ -31,9 +31,9 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   q_.resize(square);
   l_.resize(static_cast<size_t>(n_) * (n_ + 1) / 2);
   for (std::vector<double>* vector :
-       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &x_, &magnitude_,
-        &gradient_, &z_, &nu_, &scratch_, &factor_, &reflection_, &direction_,
-        &probe_}) {
+       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &inverse_scale_,
+        &x_, &magnitude_, &gradient_, &z_, &nu_, &scratch_, &factor_,
+        &reflection_, &direction_, &probe_}) {
     vector->resize(stride_);
   }
   // Factors from 1 to 2. No two are equal, so that two rows that are exchanged change a
@@ -100,7 +100,10 @@ void DiagonalLevels::Arrange(const FixedVariables& variables) {
   for (int e = 0; e < variables.size(); ++e) {
     order_[position++] = variables.fixed_variable(e);
   }
-  for (int p = 0; p < n_; ++p) scale_[p] = std::sqrt(weight_[order_[p]]);
+  for (int p = 0; p < n_; ++p) {
+    scale_[p] = std::sqrt(weight_[order_[p]]);
+    inverse_scale_[p] = 1 / scale_[p];
+  }
 }
 
 // Returns the weight that more than half of the first level's free variables have,
@@ -367,9 +370,10 @@ double DiagonalLevels::FactorRow(int level, int row) {
     l[i] = 1 / scale_[usual_begin_];
     return 1;
   }
+  const double* inverse = &inverse_scale_[block.begin];
   for (int p = 0; p < columns; ++p) {
-    const bool is_rounding = std::abs(t[p]) < tolerances::kZeroEntry;
-    q[p] = is_rounding ? 0 : t[p] / scale_[block.begin + p];
+    const double entry = t[p] * inverse[p];
+    q[p] = std::abs(t[p]) < tolerances::kZeroEntry ? 0 : entry;
   }
   const double before = SquaredNorm(q, columns);
   double after = before;
@@ -390,7 +394,8 @@ double DiagonalLevels::FactorRow(int level, int row) {
     return 0;
   }
   l[i] = std::sqrt(after);
-  for (int p = 0; p < columns; ++p) q[p] /= l[i];
+  const double scale = 1 / l[i];
+  for (int p = 0; p < columns; ++p) q[p] *= scale;
   return std::sqrt(after / before);
 }
 
@@ -426,7 +431,7 @@ void DiagonalLevels::SolveLevel(int level) {
   }
   AddRows(&q_[first], stride_, rows, z, columns, x);
   for (int p = block.begin; p < block.end; ++p) {
-    step_[p] = ideal_[p] + x_[p] / scale_[p];
+    step_[p] = ideal_[p] + x_[p] * inverse_scale_[p];
   }
 }
 

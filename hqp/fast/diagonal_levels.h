@@ -144,6 +144,8 @@ class DiagonalLevels {
   void FactorLevel(int level);
   double FactorRow(int level, int row);
   bool UpdateFactors(const LexicographicFactorization& leading);
+  bool IsFactoringFaster(const LexicographicFactorization& leading, int added,
+                         int removed) const;
   bool HasRowSpaceOf(const LexicographicFactorization& leading);
   bool FindAdded(const LexicographicFactorization& leading, int power);
   bool FindUnit(int p);
@@ -176,6 +178,7 @@ class DiagonalLevels {
   std::vector<double> t_;      ///< U' Q, by position, n x stride.
   std::vector<double> reflection_;                    ///< By row of U' Q.
   std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
+  std::vector<double> inverse_scale_;                 ///< By position.
   std::vector<double> x_, magnitude_;                 ///< By position.
   std::vector<double> gradient_;  ///< Gradient on fixed variables, by position.
   std::vector<double> z_, nu_;    ///< By row of U' Q.

@@ -35,14 +35,31 @@ bool DiagonalLevels::UpdateFactors(const LexicographicFactorization& leading) {
   if (growth > kMaxAdded || growth < -1 || !HasSquareLaterLevels()) {
     return false;
   }
-  // Rows that leave no freedom are quickly factored again.
-  if (growth > 1 && rank_ + growth == num_free_) return false;
-  const int added = growth == 0 ? 1 : growth;
+  const int added = growth == 0 ? 1 : std::max(growth, 0);
+  if (IsFactoringFaster(leading, added, growth <= 0 ? 1 : 0)) return false;
   for (int power = 1; power <= added; ++power) {
     if (!(FindAdded(leading, power) && AppendDirection())) return false;
   }
   if (growth <= 0 && !(FindRemoved(leading) && RemoveDirection())) return false;
   return HasRowSpaceOf(leading);
+}
+
+// Estimates whether another factorisation takes fewer multiply-adds than an update. An
+// update keeps the columns of all variables that were fixed since the last factorisation.
+// If the rows leave no freedom, a factorisation only eliminates the later levels.
+bool DiagonalLevels::IsFactoringFaster(
+    const LexicographicFactorization& leading, int added, int removed) const {
+  constexpr double kOverhead = kernels::kRowOverhead;
+  const int columns = leading.variables().num_free();
+  const int rows = leading.rank() - leading.variables().size();
+  const int later = blocks_[0].begin, rest = rows - later;
+  const double elimination =
+      later * (rows - later / 2.0) * (2 * columns + later + 3 * kOverhead);
+  const double orthogonalisation =
+      rows == columns ? 0 : 2.0 * rest * rest * (columns - later + kOverhead);
+  const double update = (5.0 * added + 15 * removed + 3) * (rank_ + added) *
+                        (num_free_ + kOverhead);
+  return elimination + orthogonalisation < update;
 }
 
 // Returns whether a sum of the rows of T is in the row space of Q, which has the same
@@ -163,6 +180,7 @@ bool DiagonalLevels::Release(int p) {
   order_[position] = variable;
   for (const int at : {p, end, position}) {
     scale_[at] = std::sqrt(weight_[order_[at]]);
+    inverse_scale_[at] = 1 / scale_[at];
   }
   InsertUnit(0, row, position, end, t_.data());
   if (!IsSquare()) {
