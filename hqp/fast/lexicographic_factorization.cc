@@ -77,7 +77,13 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
-  for (int j = first; j < end; ++j) to[variables_.column(j)] = from[j] / norm;
+  if (end - first == 1) {
+    // The row becomes a unit vector without rounding.
+    to[variables_.column(first)] = from[first] / norm;
+    return;
+  }
+  const double scale = 1 / norm;
+  for (int j = first; j < end; ++j) to[variables_.column(j)] = from[j] * scale;
 }
 
 bool LexicographicFactorization::Recall(int a, int key) {
@@ -222,7 +228,8 @@ void LexicographicFactorization::PivotRows(Level* level) {
       continue;
     }
     l[e] = norm;
-    for (int i = 0; i < columns; ++i) q[i] /= norm;
+    const double scale = 1 / norm;
+    for (int i = 0; i < columns; ++i) q[i] *= scale;
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.

@@ -105,6 +105,12 @@ class LexicographicFactorization {
 
   /// Solves the last level again, after all RemoveRow() and AppendRow().
   void SolveLast() { SolveLevel(levels_.back()); }
+  /// Changes the target of a row. Call SolveFrom() or SolveLast() after the last change.
+  void SetTarget(int a, double target) { target_[a] = target; }
+  /// Solves the levels from `level` on again.
+  void SolveFrom(int level) {
+    for (int k = level; k < num_levels(); ++k) SolveLevel(levels_[k]);
+  }
 
   int num_levels() const { return static_cast<int>(levels_.size()); }
   /// Number of levels that are merged. All but the last of them are empty.

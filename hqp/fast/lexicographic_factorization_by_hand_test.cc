@@ -49,6 +49,24 @@ TEST_F(LexicographicFactorizationTest, SolvesByHand) {
   EXPECT_NEAR(gradient[0] * stack_.free_basis()[0], -5, Rounding(5, 2));
 }
 
+// Level 0 then has its optimum at (1 * 9 + 3 * 1) / 4, and level 1 keeps y1.
+TEST_F(LexicographicFactorizationTest, SolvesAgainForOtherTargets) {
+  stack_.SetTarget(0, 9);
+  stack_.SetTarget(1, 1);
+  stack_.SolveFrom(0);
+  Eigen::VectorXd y = Optimum(stack_, 2);
+  EXPECT_NEAR(y[0], 3, Rounding(9, 2));
+  EXPECT_NEAR(y[1], 7, Rounding(9, 2));
+  EXPECT_NEAR(stack_.residual(0), -6, Rounding(9, 2));
+  EXPECT_NEAR(stack_.residual(2), -2, Rounding(9, 2));
+  // A level does not see targets of later ones.
+  stack_.SetTarget(3, -7);
+  stack_.SolveFrom(1);
+  y = Optimum(stack_, 2);
+  EXPECT_NEAR(y[0], 3, Rounding(9, 2));
+  EXPECT_NEAR(y[1], -7, Rounding(9, 2));
+}
+
 TEST_F(LexicographicFactorizationTest, MeetsIndependentRowsOfAnyMetric) {
   LexicographicFactorization stack(2, 2, 1);
   LeastSquares level;

@@ -74,6 +74,28 @@ TEST_P(RandomLexicographicFactorizationTest, AgreesWithSingularValues) {
   EXPECT_EQ(stack_.rank(), optimum_.rank.back());
 }
 
+// For other targets, the same factors give what new factors give.
+TEST_P(RandomLexicographicFactorizationTest, SolvesAgainForOtherTargets) {
+  std::vector<LeastSquares> others = levels_;
+  const int from = num_levels_ / 2;
+  int row = 0;
+  for (int l = 0; l < num_levels_; ++l) {
+    for (int i = 0; i < others[l].b.size(); ++i, ++row) {
+      if (l < from) continue;
+      others[l].b[i] = 3 - i;
+      // Rows of a factorisation have unit length.
+      stack_.SetTarget(row, others[l].b[i] / others[l].A.row(i).norm());
+    }
+  }
+  stack_.SolveFrom(from);
+  LexicographicFactorization fresh(n_, kMaxRows, kMaxLevels);
+  for (const LeastSquares& level : others) AddLevel(level, &fresh);
+  EXPECT_LE((Optimum(stack_, n_) - Optimum(fresh, n_)).norm(), Tolerance());
+  for (int i = 0; i < row; ++i) {
+    EXPECT_NEAR(stack_.residual(i), fresh.residual(i), Tolerance()) << i;
+  }
+}
+
 TEST_P(RandomLexicographicFactorizationTest, HasTheGradientOfItsRows) {
   const Eigen::MatrixXd Q = Basis(stack_, n_);
   for (int l = 0; l < num_levels_; ++l) {

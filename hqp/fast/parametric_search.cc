@@ -2,7 +2,6 @@
 #include "poise/hqp/fast/parametric_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,22 +12,9 @@
 namespace poise {
 namespace {
 
-// Most rows that are added ahead in one iteration. Of 2, 3, 4 and 6, none is best for all
-// recorded sequences (docs/notebook/2026-11-28-groups.md).
-constexpr int kMaxAhead = 3;
-
-// Most rows that are removed ahead in one iteration: long runs remove many. Chosen: 6, 8 and
-// 12 differ little (docs/notebook/2026-11-29-updates.md).
-constexpr int kMaxRemovedAhead = 8;
-
 // Most rows without a multiplier that one iteration removes. One iteration must not take
 // long, because a limit of time is only checked between two of them.
 constexpr int kMaxRemoved = 4;
-
-// After so many iterations in a row that all added, or all removed, rows, the path looks
-// ahead. With 3 and 5, ticks of some robots take longer
-// (docs/notebook/2026-11-28-look-ahead.md).
-constexpr int kLongRun = 4;
 
 // A path is given up after so many iterations of one solve in a row that add and remove rows
 // in turn. On recorded robots, such a path goes from vertex to vertex in steps of 1e-7 to
@@ -98,11 +84,17 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
   removals_.Reset(hierarchy);
   skips_near_ = false;
   TakeWorkingSet(*side);
-  Run run = {true, kLongRun};
+  Run run;
   for (Change last;;) {
     const int size = problem->num_levels() + 1;
     problem->FindMultipliers(size);
+    const RowIndex flipped = std::exchange(flipped_, {});
     if (RemoveVanished(*problem, size, &last, side)) {
+      // The flip was wrong if its row had to be removed.
+      if (flipped.level >= 0 &&
+          (*side)[flipped.level][flipped.row] == Side::kNone) {
+        predicts_flip_ = false;
+      }
       run.Count(false);
     } else if (Step(hierarchy, problem, &last, side)) {
       run.Count(last);
@@ -115,14 +107,7 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       side_ = *side;
       return false;
     }
-    if (run.length >= kLongRun) {
-      const bool any = run.adds
-                           ? AddAhead(hierarchy, *problem,
-                                      problem->num_levels(), last, false, side)
-                           : RemoveAhead(*problem, size, last, side);
-      // Rows that change ahead may require that the last change is undone.
-      if (any) last = {};
-    }
+    LookAhead(hierarchy, *problem, run, &last, side);
     problem->Solve(hierarchy, *side);
   }
 }
@@ -148,9 +133,17 @@ bool ParametricSearch::Step(const Hierarchy& hierarchy,
   Advance(*problem, size, *side);
   if (removes) {
     start_.Remove(removed.level, removed.row);
-    *last = Remove(removed, side);
+    const bool may_flip = MayFlip(hierarchy, removed);
+    if (may_flip && predicts_flip_) {
+      *last = Flip(removed, side);
+      flipped_ = removed;
+    } else {
+      *last = Remove(removed, side);
+      last->may_flip = may_flip;
+    }
     return true;
   }
+  if (last->may_flip && blocking.row == last->removed) predicts_flip_ = true;
   removed = Exchange(hierarchy, blocking, size, *last, *side, problem);
   *last = Add(blocking, side);
   if (removed.level < 0) return true;
@@ -253,58 +246,6 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
     }
   }
   return first;
-}
-
-// Adds those rows of one variable of the first `num_levels` levels that block next, up to
-// kMaxAhead, but none that has been removed on this path, unless `again`. Returns whether
-// there was one.
-// When a robot reaches its limits, many such rows are added one after the other; most are
-// independent of each other, and a wrong one gets a negative multiplier and is removed.
-bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
-                                const WorkingSetProblem& problem,
-                                int num_levels, const Change& last, bool again,
-                                Sides* side) {
-  const double noise = Noise(problem);
-  std::array<Blocking, kMaxAhead> next;  // In the order of their times.
-  for (int level = 0; level < num_levels; ++level) {
-    const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
-      const Span span = hierarchy.C_span(level)[i];
-      if (span.size != 1 || (*side)[level][i] != Side::kNone) continue;
-      const double value =
-          hierarchy.C(level)(i, span.first) * problem.y()[span.first];
-      if ((value <= upper[i] && value >= lower[i]) ||
-          (!again && !removals_.HasAllRemovals({level, i}))) {
-        continue;
-      }
-      Blocking row =
-          FindTime(hierarchy, problem, {level, i}, value, noise, last);
-      for (Blocking& earlier : next) {
-        if (row.time < earlier.time) std::swap(row, earlier);
-      }
-    }
-  }
-  for (const Blocking& row : next) {
-    if (row.side != Side::kNone) (void)Add(row, side);
-  }
-  return next[0].side != Side::kNone;
-}
-
-// Removes those rows whose multipliers become negative next, up to kMaxRemovedAhead, and
-// none after one that has been removed on this path. From then on, their multipliers count as
-// zero. Returns whether there was one. A row that should have stayed blocks at once and is
-// added again.
-bool ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
-                                   const Change& last, Sides* side) {
-  bool any = false;
-  for (int i = 0; i < kMaxRemovedAhead; ++i) {
-    const RowIndex row = FindRemoval(problem, size, last, *side);
-    if (row.level < 0 || !removals_.HasAllRemovals(row)) break;
-    start_.Remove(row.level, row.row);
-    (void)Remove(row, side);
-    any = true;
-  }
-  return any;
 }
 
 // Finds the row whose multiplier becomes negative first, and the time at which this

@@ -46,6 +46,8 @@ class ParametricSearch {
   /// Forgets the last solution. Until the next Remember(), there is no path.
   void Forget() {
     is_known_ = is_paused_ = is_near_known_ = skips_near_ = false;
+    predicts_flip_ = false;
+    flipped_ = {};
   }
   bool is_known() const { return is_known_; }
 
@@ -53,6 +55,7 @@ class ParametricSearch {
   void Begin(const std::vector<double>& y) {
     y_ = y;
     is_continued_ = is_paused_;
+    if (!is_paused_) flipped_ = {};
     is_paused_ = false;
   }
   /// Interrupts a path. Until Begin(), Resume() replaces a working set by
@@ -108,20 +111,38 @@ class ParametricSearch {
     RowIndex removed;
     Side removed_side = Side::kNone;
     bool is_exchange = false;  ///< A row has replaced another one.
+    bool is_flip = false;      ///< Rows have been moved to their other bound.
+    bool may_flip = false;     ///< MayFlip() when `removed` was removed.
   };
+  /// The last iterations. A path begins as after a long run of additions.
   struct Run {
-    bool adds;   ///< Whether the last iteration added rows.
-    int length;  ///< Last iterations that all changed rows in this direction.
-    int alternations = 0;  ///< Last iterations that each changed the direction.
+    /// After so many iterations in a row that all added, or all removed, rows, the path
+    /// looks ahead. With 3 and 5, ticks of some robots take longer
+    /// (docs/notebook/2026-11-28-look-ahead.md).
+    static constexpr int kLong = 4;
+
+    bool adds = true;  ///< Whether the last iteration added rows.
+    /// Last iterations that all changed rows in this direction.
+    int length = kLong;
+    /// Last iterations that each changed the direction, without those that flipped rows.
+    int alternations = 0;
+    int flips = 0;  ///< Last iterations that each flipped rows.
     void Count(bool is_addition) {
       const bool goes_on = is_addition == adds;
       length = goes_on ? length + 1 : 1;
       alternations = goes_on ? 0 : alternations + 1;
       adds = is_addition;
+      flips = 0;
     }
-    /// An exchange adds and removes a row, so it counts as a change of the direction.
+    /// An exchange adds and removes a row, so it counts as a change of the direction. A
+    /// flip has no direction.
     void Count(const Change& change) {
-      Count(change.is_exchange ? !adds : change.added.level >= 0);
+      if (change.is_flip) {
+        ++flips;
+        length = 0;
+      } else {
+        Count(change.is_exchange ? !adds : change.added.level >= 0);
+      }
     }
   };
 
@@ -140,6 +161,8 @@ class ParametricSearch {
   const double* FindFactors(const Hierarchy& hierarchy, const Blocking& added,
                             const Sides& side,
                             WorkingSetProblem* problem) const;
+  void LookAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                 const Run& run, Change* last, Sides* side);
   double Noise(const WorkingSetProblem& problem) const;
   Blocking FindTime(const Hierarchy& hierarchy,
                     const WorkingSetProblem& problem, RowIndex row,
@@ -151,6 +174,10 @@ class ParametricSearch {
                 int num_levels, const Change& last, bool again, Sides* side);
   bool RemoveAhead(const WorkingSetProblem& problem, int size,
                    const Change& last, Sides* side);
+  bool FlipAhead(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
+                 int size, const Change& last, Sides* side);
+  bool MayFlip(const Hierarchy& hierarchy, RowIndex row) const;
+  Change Flip(RowIndex row, Sides* side);
   RowIndex FindRemoval(const WorkingSetProblem& problem, int size,
                        const Change& last, const Sides& side);
   bool MayRemove(const WorkingSetProblem& problem, int size, const Change& last,
@@ -181,6 +208,10 @@ class ParametricSearch {
   std::vector<double> end_, time_, removal_time_;  ///< Infinitesimals.
   std::vector<double> scratch_, end_value_;
   RemovalLimits removals_;
+  /// Whether rows are flipped instead of removed, also in later solves: a row that could be
+  /// flipped was removed and went to its other bound, and no flip has been wrong since.
+  bool predicts_flip_ = false;
+  RowIndex flipped_;  ///< The row that the last Step() has flipped.
 };
 
 /// Removes rows from a working set whose bound is infinite. Adds rows with equal

@@ -191,12 +191,17 @@ void WorkingSetProblem::AddRow(const Row& row, const double* from,
                   row.norm);
 }
 
+double WorkingSetProblem::Bound(const Hierarchy& hierarchy, int level, int i,
+                                Side side) {
+  return side == Side::kUpper ? hierarchy.upper(level)[i]
+                              : hierarchy.lower(level)[i];
+}
+
 WorkingSetProblem::Row WorkingSetProblem::Inequality(const Hierarchy& hierarchy,
                                                      int level, int i,
                                                      Side side) const {
   const double* row = hierarchy.C(level).data() + i * n_;
-  const double bound = side == Side::kUpper ? hierarchy.upper(level)[i]
-                                            : hierarchy.lower(level)[i];
+  const double bound = Bound(hierarchy, level, i, side);
   const Span span = hierarchy.C_span(level)[i];
   return {level, i, true, span, Norm(row, span), bound};
 }
@@ -293,7 +298,8 @@ bool WorkingSetProblem::AddFixedVariable(const Hierarchy& hierarchy,
 
 // Factors the levels from the first one that has changed. If this is before the
 // first deficient one, single rows are removed and appended instead: all rows
-// before the first deficient level are met, so their order does not matter.
+// before the first deficient level are met, so their order does not matter. If
+// rows only go to their other bounds, the levels are only solved again.
 // Returns false if the first level must be factored again.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
@@ -305,6 +311,10 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
     return true;
   }
   if (met == 0) return false;
+  if (same < met && NumChanges(side, met) == 0) {
+    ChangeSides(hierarchy, side, same, met);
+    return true;
+  }
   // More updates than this take longer than another factorisation.
   const int most = (leading_.rank(met - 1) - leading_.variables().size()) / 2;
   if (NumChanges(side, met) > most) return false;
@@ -313,6 +323,10 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
     const Row& row = rows_[a];
     if (!row.is_inequality ||
         side[row.level][row.index] == factored_[row.level][row.index]) {
+      continue;
+    }
+    if (side[row.level][row.index] != Side::kNone) {
+      SetSide(hierarchy, a, side[row.level][row.index]);
       continue;
     }
     factored_[row.level][row.index] = Side::kNone;
@@ -328,7 +342,38 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
   return true;
 }
 
-// Returns the number of rows of the first `met` levels that must be removed or appended.
+// Sets the target of the factored row a to another bound.
+void WorkingSetProblem::SetSide(const Hierarchy& hierarchy, int a, Side side) {
+  Row& row = rows_[a];
+  row.bound = Bound(hierarchy, row.level, row.index, side);
+  leading_.SetTarget(a, row.bound / row.norm);
+  factored_[row.level][row.index] = side;
+}
+
+// Updates levels of which the first `met` have the same rows as before, some of them with
+// another side from level `from` on. Their factors stay, so that they are only solved
+// again. Later levels are factored again from the first one that has changed.
+void WorkingSetProblem::ChangeSides(const Hierarchy& hierarchy,
+                                    const std::vector<std::vector<Side>>& side,
+                                    int from, int met) {
+  for (int a = 0; a < leading_.num_rows(); ++a) {
+    const Row& row = rows_[a];
+    if (!row.is_inequality || row.level >= met) continue;
+    const Side after = side[row.level][row.index];
+    if (after != factored_[row.level][row.index]) SetSide(hierarchy, a, after);
+  }
+  int changed = met;
+  while (changed < leading_.num_levels() &&
+         side[changed] == factored_[changed]) {
+    ++changed;
+  }
+  leading_.Truncate(changed);
+  leading_.SolveFrom(from);
+  if (changed < num_leading_) FactorFrom(hierarchy, side, changed, met > 0);
+}
+
+// Returns the number of rows of the first `met` levels that must be removed or appended. A
+// row that goes to its other bound only gets another target.
 int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
                                   int met) const {
   int changes = 0;
@@ -337,7 +382,7 @@ int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
     for (size_t i = 0; i < side[level].size(); ++i) {
       const Side before = factored_[level][i], after = side[level][i];
       if (before == after) continue;
-      changes += (before != Side::kNone) + (after != Side::kNone);
+      changes += (before == Side::kNone) != (after == Side::kNone);
     }
   }
   return changes;

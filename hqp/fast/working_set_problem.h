@@ -228,6 +228,7 @@ class WorkingSetProblem {
  private:
   void AddRow(const Row& row, const double* from, double metric, int key);
   void CountWork();
+  static double Bound(const Hierarchy& hierarchy, int level, int i, Side side);
   Row Inequality(const Hierarchy& hierarchy, int level, int i, Side side) const;
   template <typename Use>
   void ForEachRow(const Hierarchy& hierarchy, const std::vector<Side>& side,
@@ -248,6 +249,10 @@ class WorkingSetProblem {
                    int level, int first_key);
   bool Update(const Hierarchy& hierarchy,
               const std::vector<std::vector<Side>>& side);
+  void SetSide(const Hierarchy& hierarchy, int a, Side side);
+  void ChangeSides(const Hierarchy& hierarchy,
+                   const std::vector<std::vector<Side>>& side, int from,
+                   int met);
   int NumChanges(const std::vector<std::vector<Side>>& side, int met) const;
   bool AppendRows(const Hierarchy& hierarchy,
                   const std::vector<std::vector<Side>>& side, int level,

@@ -274,6 +274,29 @@ TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsExactAsANewFactorisation) {
   Check(MakeSides(5), num_levels_, zero_);
 }
 
+// The rows of one more level go to their other bounds each time.
+TEST_P(RandomWorkingSetProblemTest, SolvesAgainIfRowsGoToTheirOtherBounds) {
+  Sides sides = MakeSides(2);
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, sides);
+  for (int k = 0; k < num_levels_; ++k) {
+    for (size_t i = 0; i < sides[k].size(); ++i) {
+      if (sides[k][i] == Side::kNone) continue;
+      const Side other =
+          sides[k][i] == Side::kUpper ? Side::kLower : Side::kUpper;
+      if (std::isfinite(Bound(k, static_cast<int>(i), other)))
+        sides[k][i] = other;
+    }
+    SCOPED_TRACE(k);
+    problem_.Solve(hierarchy_, sides);
+    Check(sides, num_levels_, zero_);
+  }
+  problem_.FindMultipliers(num_levels_ + 1);
+  CheckMultipliers(false);
+  problem_.Refine(hierarchy_);
+  Check(sides, num_levels_, zero_);
+}
+
 TEST_P(RandomWorkingSetProblemTest, StaysCloseToACenter) {
   const Eigen::VectorXd center = Eigen::VectorXd::LinSpaced(n_, 1, 3);
   for (int levels = 0; levels <= num_levels_; ++levels) {
