@@ -77,13 +77,7 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
-  if (end - first == 1) {
-    // The row becomes a unit vector without rounding.
-    to[variables_.column(first)] = from[first] / norm;
-    return;
-  }
-  const double scale = 1 / norm;
-  for (int j = first; j < end; ++j) to[variables_.column(j)] = from[j] * scale;
+  for (int j = first; j < end; ++j) to[variables_.column(j)] = from[j] / norm;
 }
 
 bool LexicographicFactorization::Recall(int a, int key) {
@@ -228,8 +222,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
       continue;
     }
     l[e] = norm;
-    const double scale = 1 / norm;
-    for (int i = 0; i < columns; ++i) q[i] *= scale;
+    for (int i = 0; i < columns; ++i) q[i] /= norm;
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.

@@ -127,9 +127,7 @@ bool LexicographicFactorization::AppendRow() {
   std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
   l[rank_] = norm;
   const int columns = variables_.num_free();
-  const double *from = row(a), scale = 1 / norm;
-  double* to = q(rank_);
-  for (int j = 0; j < columns; ++j) to[j] = from[j] * scale;
+  for (int j = 0; j < columns; ++j) q(rank_)[j] = row(a)[j] / norm;
   kept_.Extend(q(rank_), columns);
   Count(2 * kept_.size(), columns);
   carrier_[rank_] = a;
