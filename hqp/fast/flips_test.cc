@@ -15,12 +15,12 @@
 #include "poise/hqp/solution.h"
 #include "poise/hqp/solver.h"
 #include "poise/tests/util/path_between.h"
+#include "poise/tests/util/tolerance.h"
 
 namespace poise {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTolerance = 1e-12;  // Targets and residuals are up to 221.
 
 // Thirteen boxes |y_j| <= 1, and a target for each y_j, plus coupling_ times the others. The
 // targets move from 100 + 10 j to -100, so that y_j leaves its upper bound in the order of j
@@ -29,6 +29,8 @@ constexpr double kTolerance = 1e-12;  // Targets and residuals are up to 221.
 class FlipTest : public testing::Test {
  protected:
   static constexpr int kVariables = 13;
+  // Targets and residuals are up to 221.
+  const double tolerance_ = Rounding(221, kVariables);
 
   Hierarchy At(const Eigen::VectorXd& target) const {
     Hierarchy hierarchy(kVariables, capacity_);
@@ -41,11 +43,7 @@ class FlipTest : public testing::Test {
     task.B = coupling_;
     task.B.diagonal().array() += 1;
     task.b = -sign_ * target;
-    // With an inequality, the level is a leading one.
-    InequalityBlock loose = hierarchy.AddInequalities(1, 1);
-    loose.C.setOnes();
-    loose.lower.setConstant(-kInfinity);
-    loose.upper.setConstant(kInfinity);
+    MakeLeading(1, &hierarchy);
     hierarchy.FindSpans();
     return hierarchy;
   }
@@ -77,7 +75,7 @@ TEST_F(FlipTest, MovesRowsToTheirOtherBound) {
     for (const Side side : search_.side()[0]) {
       EXPECT_EQ(side, sign > 0 ? Side::kLower : Side::kUpper);
     }
-    EXPECT_NEAR((search_.y() - sign * lower_).norm(), 0, kTolerance) << sign;
+    EXPECT_NEAR((search_.y() - sign * lower_).norm(), 0, tolerance_) << sign;
   }
 }
 
@@ -86,10 +84,10 @@ TEST_F(FlipTest, PredictsFlipsInTheNextPath) {
   end_.tail(kVariables - 1) = start_.tail(kVariables - 1);
   EXPECT_EQ(Follow(), 2);
   EXPECT_EQ(Follow(), 1);
-  EXPECT_NEAR(search_.y()[0], -1, kTolerance);
+  EXPECT_NEAR(search_.y()[0], -1, tolerance_);
   search_.path().Forget();
   EXPECT_EQ(Follow(), 2);
-  EXPECT_NEAR(search_.y()[0], -1, kTolerance);
+  EXPECT_NEAR(search_.y()[0], -1, tolerance_);
 }
 
 // Another row blocks first. It has not come from its other bound.
@@ -98,7 +96,7 @@ TEST_F(FlipTest, PredictsNoFlipsFromOtherRowsThatBlock) {
   end_.tail(kVariables - 1) = start_.tail(kVariables - 1);
   end_[1] = 0.5;
   EXPECT_EQ(Follow(), 2);
-  EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
+  EXPECT_NEAR(search_.y()[1], 0.5, tolerance_);
 }
 
 // All y_j but the first stay between their bounds. The second row is flipped and removed
@@ -109,7 +107,7 @@ TEST_F(FlipTest, RemovesARowThatWasFlippedByMistake) {
   EXPECT_EQ(Follow(), 2 + 1 + 4);
   Eigen::VectorXd y = end_;
   y[0] = -1;
-  EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
+  EXPECT_NEAR((search_.y() - y).norm(), 0, tolerance_);
 }
 
 // The first row goes to its other bound, so that the second one would be flipped if it had
@@ -122,7 +120,7 @@ TEST_F(FlipTest, FlipsOnlyRowsWithTwoBounds) {
       lower_[1] = infinite;
       search_.path().Forget();
       EXPECT_EQ(Follow(), 2 + 1) << sign << infinite;
-      EXPECT_NEAR(search_.y()[1], -100 * sign, kTolerance);
+      EXPECT_NEAR(search_.y()[1], -100 * sign, tolerance_);
     }
   }
 }
@@ -132,7 +130,7 @@ TEST_F(FlipTest, FlipsOnlyRowsOfOneVariable) {
   end_.tail(kVariables - 2) = start_.tail(kVariables - 2);
   C_(1, kVariables - 1) = 0.5;
   EXPECT_EQ(Follow(), 2 + 2);
-  EXPECT_NEAR(search_.y()[1], -1.5, kTolerance);
+  EXPECT_NEAR(search_.y()[1], -1.5, tolerance_);
 }
 
 // Each y_j depends on the others, so that some flips are wrong. The optimum is that of a
@@ -157,7 +155,7 @@ TEST_F(FlipTest, ArrivesAtTheOptimum) {
     Solution expected(kVariables, capacity_);
     ASSERT_EQ(cold.Solve(At(end_), &expected), Status::kOptimal);
     // The condition of the task is below 10.
-    EXPECT_NEAR((search_.y() - expected.y).norm(), 0, 10 * kTolerance);
+    EXPECT_NEAR((search_.y() - expected.y).norm(), 0, 10 * tolerance_);
   }
   EXPECT_GT(arrived, 190);
 }
@@ -180,7 +178,7 @@ TEST_F(FlipTest, KeepsTheFactors) {
   problem.Solve(hierarchy, sides);
   EXPECT_LT(4 * (problem.work().multiply_adds - first), first);
   for (int j = 0; j < 6; ++j) {
-    EXPECT_NEAR(problem.y()[j], j < 3 ? -1 : 1, kTolerance);
+    EXPECT_NEAR(problem.y()[j], j < 3 ? -1 : 1, tolerance_);
   }
 }
 

@@ -34,11 +34,7 @@ class LookAheadTest : public testing::Test {
     task.B.setIdentity();
     task.B.block<1, kLeaders>(kFollower, 0) = leads_;
     task.b = -target;
-    // With an inequality, the level is a leading one.
-    InequalityBlock loose = hierarchy.AddInequalities(1, 1);
-    loose.C.setOnes();
-    loose.lower.setConstant(-kInfinity);
-    loose.upper.setConstant(kInfinity);
+    MakeLeading(1, &hierarchy);
     hierarchy.FindSpans();
     return hierarchy;
   }

@@ -369,7 +369,7 @@ void WorkingSetProblem::ChangeSides(const Hierarchy& hierarchy,
   }
   leading_.Truncate(changed);
   leading_.SolveFrom(from);
-  if (changed < num_leading_) FactorFrom(hierarchy, side, changed, met > 0);
+  if (changed < num_leading_) FactorFrom(hierarchy, side, changed, true);
 }
 
 // Returns the number of rows of the first `met` levels that must be removed or appended. A

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "poise/hqp/fast/budget.h"
 #include "poise/tests/util/count_malloc.h"
 
@@ -67,6 +69,14 @@ bool PathBetween::MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit) {
 void PathBetween::Read(const Hierarchy& hierarchy) {
   int failed_level;
   ASSERT_EQ(problem_.Read(hierarchy, &failed_level), Status::kOptimal);
+}
+
+void MakeLeading(int level, Hierarchy* hierarchy) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  InequalityBlock loose = hierarchy->AddInequalities(level, 1);
+  loose.C.setOnes();
+  loose.lower.setConstant(-kInfinity);
+  loose.upper.setConstant(kInfinity);
 }
 
 ParametricSearch::Sides NoSides(const std::vector<LevelCapacity>& capacity) {

@@ -63,6 +63,10 @@ class PathBetween {
   ParametricSearch::Sides side_;
 };
 
+/// Adds an inequality without bounds to a level of unit rows, so that it is a leading level
+/// and not a diagonal one.
+void MakeLeading(int level, Hierarchy* hierarchy);
+
 /// Returns an empty working set.
 ParametricSearch::Sides NoSides(const std::vector<LevelCapacity>& capacity);
 
