@@ -104,13 +104,16 @@ int AddRowsWithSizes(const double* rows, int stride, const Span* spans,
 POISE_TARGET_CLONES("avx2")
 bool AreZeroOutside(const double* rows, int stride, const Span* spans,
                     int count) {
+  // The entries after a row's span and before that of the next row are neighbours.
   std::uint64_t bits = 0;
+  const double* begin = rows;
   for (int i = 0; i < count; ++i) {
-    const double* row = rows + static_cast<long>(i) * stride;
-    const int end = spans[i].first + spans[i].size;
-    bits |= BitsOf(row, spans[i].first) | BitsOf(row + end, stride - end);
+    const double* span = rows + static_cast<long>(i) * stride + spans[i].first;
+    bits |= BitsOf(begin, static_cast<int>(span - begin));
+    begin = span + spans[i].size;
   }
-  return bits == 0;
+  const double* end = rows + static_cast<long>(count) * stride;
+  return (bits | BitsOf(begin, static_cast<int>(end - begin))) == 0;
 }
 
 }  // namespace poise

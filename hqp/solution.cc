@@ -89,6 +89,8 @@ void EvaluateLevel(const Hierarchy& hierarchy, int level,
   auto slack = out.slack.head(hierarchy.num_inequalities(level));
   const auto value = [&](const auto& rows, const Span* spans, int i) {
     const auto [first, size] = spans[i];
+    // Most rows have one entry.
+    if (size == 1) return rows(i, first) * solution->y[first];
     return rows.row(i)
         .segment(first, size)
         .dot(solution->y.segment(first, size));

@@ -183,7 +183,8 @@ bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
     problem_.Refine(hierarchy);
     if (pass == kMaxRefinementPasses || !AddViolated(hierarchy, true)) break;
   }
-  FindMultipliers(hierarchy);
+  // The search has found the multipliers. Refinement has moved y by rounding only.
+  problem_.RefineMultipliers(hierarchy);
   return true;
 }
 

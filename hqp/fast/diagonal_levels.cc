@@ -297,15 +297,12 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
                                   int end, double* squared) {
   if (row_begin >= row_end) return begin;
   double* squares = scratch_.data();
-  std::fill_n(squares, num_free_, 0);
-  for (int i = row_begin; i < row_end; ++i) {
-    const double* t = &t_[Index(i)];
-    for (int p = begin; p < end; ++p) squares[p] += t[p] * t[p];
-  }
+  kernels::ColumnSquares(&t_[Index(row_begin) + begin], stride_,
+                         row_end - row_begin, end - begin, squares);
   Count(row_end - row_begin, end - begin);
-  const double* largest = std::max_element(squares + begin, squares + end);
+  const double* largest = std::max_element(squares, squares + end - begin);
   *squared = *largest;
-  return static_cast<int>(largest - squares);
+  return begin + static_cast<int>(largest - squares);
 }
 
 // Reflects the given rows by H = I - v v', so that column `pivot` is zero
@@ -370,11 +367,8 @@ double DiagonalLevels::FactorRow(int level, int row) {
     l[i] = 1 / scale_[usual_begin_];
     return 1;
   }
-  const double* inverse = &inverse_scale_[block.begin];
-  for (int p = 0; p < columns; ++p) {
-    const double entry = t[p] * inverse[p];
-    q[p] = std::abs(t[p]) < tolerances::kZeroEntry ? 0 : entry;
-  }
+  kernels::MultiplyEntries(t, &inverse_scale_[block.begin],
+                           tolerances::kZeroEntry, columns, q);
   const double before = SquaredNorm(q, columns);
   double after = before;
   const int above = i - from;
@@ -394,8 +388,7 @@ double DiagonalLevels::FactorRow(int level, int row) {
     return 0;
   }
   l[i] = std::sqrt(after);
-  const double scale = 1 / l[i];
-  for (int p = 0; p < columns; ++p) q[p] *= scale;
+  kernels::Scale(1 / l[i], columns, q);
   return std::sqrt(after / before);
 }
 

@@ -160,7 +160,7 @@ bool DiagonalLevels::SubtractProjectionOnQ(
 bool DiagonalLevels::Normalize() {
   const double length = std::sqrt(SquaredNorm(direction_.data(), num_free_));
   if (length <= tolerances::kSameRowSpace) return false;
-  for (int p = 0; p < num_free_; ++p) direction_[p] /= length;
+  kernels::Divide(direction_.data(), length, num_free_, direction_.data());
   return true;
 }
 

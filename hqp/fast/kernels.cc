@@ -151,10 +151,13 @@ void SpanDots(const double* rows, int stride, const Span* spans, int count,
     const double* row = rows + static_cast<long>(i) * stride + first;
     const double* at = x + first;
     const int whole = size & ~3;
-    Four sum = {};
+    double dot = 0;
     int j = 0;
-    for (; j < whole; j += 4) sum += POISE_LOAD(row + j) * POISE_LOAD(at + j);
-    double dot = POISE_SUM(sum);
+    if (whole > 0) {  // Most rows have fewer entries.
+      Four sum = {};
+      for (; j < whole; j += 4) sum += POISE_LOAD(row + j) * POISE_LOAD(at + j);
+      dot = POISE_SUM(sum);
+    }
     for (; j < size; ++j) dot += row[j] * at[j];
     out[i] = dot;
   }
@@ -182,6 +185,68 @@ POISE_TARGET_CLONES("fma")
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n) {
   AddToRowsOf(Chosen<double>{{rows, stride}, index}, count, factor, x, n);
+}
+
+// A quotient q from the reciprocal has the remainder x - q divisor, which corrects its last
+// digit (Markstein, Computation of elementary functions on the IBM RISC System/6000
+// processor, 1990). A fused multiply-add computes this remainder without rounding. A
+// division takes five times as long.
+POISE_TARGET_CLONES("fma")
+void Divide(const double* x, double divisor, int n, double* out) {
+  const double reciprocal = 1 / divisor;
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four xj = POISE_LOAD(x + j), q = xj * reciprocal;
+    POISE_STORE(out + j) = q + (xj - q * divisor) * reciprocal;
+  }
+  for (; j < n; ++j) out[j] = x[j] / divisor;
+}
+
+POISE_TARGET_CLONES("fma")
+void MultiplyEntries(const double* x, const double* factor, double least, int n,
+                     double* out) {
+  const Four none = {};
+  int j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const Four xj = POISE_LOAD(x + j), size = xj < 0 ? -xj : xj;
+    POISE_STORE(out + j) = size < least ? none : xj * POISE_LOAD(factor + j);
+  }
+  for (; j < n; ++j) out[j] = std::abs(x[j]) < least ? 0 : factor[j] * x[j];
+}
+
+POISE_TARGET_CLONES("fma")
+void Scale(double factor, int n, double* x) {
+  int j = 0;
+  for (; j + 4 <= n; j += 4) POISE_STORE(x + j) *= factor;
+  for (; j < n; ++j) x[j] *= factor;
+}
+
+POISE_TARGET_CLONES("fma")
+void ColumnSquares(const double* rows, int stride, int count, int n,
+                   double* sums) {
+  const int fours = count & ~3, whole = n & ~3;
+  std::fill_n(sums, n, 0);
+  for (int i = 0; i < fours; i += 4) {
+    const double* r0 = rows + static_cast<long>(i) * stride;
+    const double *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
+    for (int j = 0; j < whole; j += 4) {
+      const Four x0 = POISE_LOAD(r0 + j), x1 = POISE_LOAD(r1 + j);
+      const Four x2 = POISE_LOAD(r2 + j), x3 = POISE_LOAD(r3 + j);
+      POISE_STORE(sums + j) += (x0 * x0 + x1 * x1) + (x2 * x2 + x3 * x3);
+    }
+    for (int j = whole; j < n; ++j) {
+      sums[j] +=
+          (r0[j] * r0[j] + r1[j] * r1[j]) + (r2[j] * r2[j] + r3[j] * r3[j]);
+    }
+  }
+  for (int i = fours; i < count; ++i) {
+    const double* r = rows + static_cast<long>(i) * stride;
+    for (int j = 0; j < whole; j += 4) {
+      const Four x = POISE_LOAD(r + j);
+      POISE_STORE(sums + j) += x * x;
+    }
+    for (int j = whole; j < n; ++j) sums[j] += r[j] * r[j];
+  }
 }
 
 POISE_TARGET_CLONES("fma")

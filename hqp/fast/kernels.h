@@ -53,6 +53,21 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n);
 
+/// out_j = x_j / divisor. With fused multiply-add the quotients are rounded correctly, and
+/// else to one unit in the last place. pre: 1 / divisor and all numbers are normal or zero.
+void Divide(const double* x, double divisor, int n, double* out);
+
+/// out_j = factor_j x_j, or 0 where |x_j| < least.
+void MultiplyEntries(const double* x, const double* factor, double least, int n,
+                     double* out);
+
+/// x *= factor.
+void Scale(double factor, int n, double* x);
+
+/// sums_j = sum_i row_ij^2, for i < count.
+void ColumnSquares(const double* rows, int stride, int count, int n,
+                   double* sums);
+
 /// (x, y) = (c x + s y, c y - s x).
 void Rotate(double c, double s, int n, double* x, double* y);
 

@@ -184,6 +184,76 @@ TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
   });
 }
 
+// A product with the divisor is the dividend, with the rounding of a quotient, half a unit
+// in the last place, and that of the product. Without fused multiply-add, the quotient may
+// be rounded twice. Quotients of multiples of the divisor are exact.
+TEST_F(KernelsTest, DivideIsTheInverseOfMultiplication) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  for (const double divisor : {3.0, -0.7, 1e-9, 4.1e12}) {
+    for (int n = 0; n <= kMaxSize; ++n) {
+      std::vector<double> out(kStride, kUntouched), multiple = out;
+      kernels::Divide(x_.data(), divisor, n, out.data());
+      for (int j = 0; j < n; ++j) {
+        EXPECT_NEAR(out[j] * divisor, x_[j], 1.5 * kEpsilon * std::abs(x_[j]));
+        multiple[j] = j * divisor;
+      }
+      kernels::Divide(multiple.data(), divisor, n, multiple.data());
+      for (int j = 0; j < kStride; ++j) {
+        if (j >= n) {
+          EXPECT_EQ(out[j], kUntouched);
+        }
+        EXPECT_NEAR(multiple[j], j < n ? j : kUntouched, kEpsilon * j);
+      }
+    }
+  }
+}
+
+// The squared length of all rows is the sum over the columns. A column alone is checked with
+// a matrix that has no other one.
+TEST_F(KernelsTest, ColumnSquaresSumToTheSquaredLengthOfTheRows) {
+  ForAllSizes([&](int rows, int n) {
+    std::vector<double> sums(kStride, kUntouched);
+    kernels::ColumnSquares(rows_.data(), kStride, rows, n, sums.data());
+    double left = 0;
+    for (int i = 0; i < rows; ++i) {
+      left += kernels::SquaredNorm(&rows_[i * kStride], n);
+    }
+    for (int j = 0; j < n; ++j) {
+      double sum;
+      kernels::ColumnSquares(&rows_[j], kStride, rows, 1, &sum);
+      EXPECT_EQ(sums[j], sum) << j;
+      left -= sums[j];
+    }
+    EXPECT_EQ(left, 0);
+    for (int j = n; j < kStride; ++j) EXPECT_EQ(sums[j], kUntouched) << j;
+  });
+}
+
+TEST_F(KernelsTest, MultiplyEntriesLeavesOutSmallOnes) {
+  for (int n = 0; n <= kMaxSize; ++n) {
+    const double least = 0.5;
+    std::vector<double> out(kStride, kUntouched);
+    kernels::MultiplyEntries(x_.data(), factor_.data(), least, n, out.data());
+    for (int j = 0; j < n; ++j) {
+      const bool is_small = x_[j] > -least && x_[j] < least;
+      EXPECT_EQ(out[j], is_small ? 0 : x_[j] * factor_[j]) << j;
+    }
+    for (int j = n; j < kStride; ++j) EXPECT_EQ(out[j], kUntouched) << j;
+  }
+}
+
+// A vector scaled by a and the vector itself add up to the vector scaled by 1 + a.
+TEST_F(KernelsTest, ScaleIsLinear) {
+  for (int n = 0; n <= kMaxSize; ++n) {
+    std::vector<double> scaled = x_, more = x_;
+    kernels::Scale(-3, n, scaled.data());
+    kernels::Scale(-2, n, more.data());
+    for (int j = 0; j < kStride; ++j) {
+      EXPECT_EQ(more[j], j < n ? scaled[j] + x_[j] : x_[j]) << j;
+    }
+  }
+}
+
 TEST_F(KernelsTest, AbsoluteSumIsTheSumOfMagnitudes) {
   for (int n = 0; n <= kMaxSize; ++n) {
     double sum = 0;

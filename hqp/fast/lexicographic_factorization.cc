@@ -50,6 +50,7 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   cosine_.resize(n_);
   sine_.resize(n_);
   packed_.resize(n_);
+  column_.resize(n_);
   chosen_.resize(max_rows);
   open_.resize(max_rows);
   nonzero_.resize(max_rows);
@@ -77,10 +78,17 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
-  for (int j = first; j < end; ++j) to[variables_.column(j)] = from[j] / norm;
+  kernels::Divide(from + first, norm, end - first, scratch_.data());
+  for (int j = first; j < end; ++j) {
+    to[variables_.column(j)] = scratch_[j - first];
+  }
 }
 
 bool LexicographicFactorization::Recall(int a, int key) {
+  if (rank_ == n_) {
+    kept_.Keep(key);
+    return false;
+  }
   key_[a] = key;
   is_recalled_[a] =
       kept_.Use(key, &l_[static_cast<size_t>(a) * stride_], row(a));
@@ -107,12 +115,17 @@ void LexicographicFactorization::FactorLevel() {
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
   level.rank_begin = level.rank_end = rank_;
-  for (int a = level.first_row; a < level.end_row; ++a) ProjectRow(a);
-  PivotRows(&level);
+  level.is_determined = rank_ == n_;
+  if (!level.is_determined) {
+    for (int a = level.first_row; a < level.end_row; ++a) ProjectRow(a);
+    PivotRows(&level);
+  }
   const int rows = level.end_row - level.first_row;
   level.deficient = level.rank_end - level.rank_begin < rows;
   rank_ = level.rank_end;
-  if (level.deficient) {
+  if (level.is_determined) {
+    Count(rows, n_);
+  } else if (level.deficient) {
     Reduce(&level);
   } else {
     CopyEffective(level);
@@ -222,7 +235,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
       continue;
     }
     l[e] = norm;
-    for (int i = 0; i < columns; ++i) q[i] /= norm;
+    kernels::Divide(q, norm, columns, q);
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.
@@ -327,27 +340,43 @@ void LexicographicFactorization::Reduce(Level* level) {
 
 void LexicographicFactorization::SolveLevel(const Level& level) {
   SolveRows(level, target_.data() + level.first_row, z_.data());
+  FindResiduals(level);
   // Rounding of z is relative to the targets of all rows of the level.
   double size = 0;
   for (int a = level.first_row; a < level.end_row; ++a) {
     size = std::max(size, std::abs(target_[a]));
   }
-  size += norm_z();
-  for (int a = level.first_row; a < level.end_row; ++a) {
-    residual_[a] = 0;
-    if (!level.deficient) continue;
-    double value;
-    Dots(&l_[static_cast<size_t>(a) * stride_], 0, 1, z_.data(), level.rank_end,
-         &value);
-    residual_[a] = value - target_[a];
+  KeepUnattainableResiduals(size + norm_z(), level);
+}
+
+void LexicographicFactorization::FindResiduals(const Level& level) {
+  const int first = level.first_row, rows = level.end_row - first;
+  double* residual = &residual_[first];
+  std::fill_n(residual, rows, 0);
+  if (!level.deficient) return;
+  if (!level.is_determined) {
+    Dots(&l_[static_cast<size_t>(first) * stride_], stride_, rows, z_.data(),
+         level.rank_end, residual);
+  } else {
+    // y by column.
+    const int fixed = variables_.size(), free = variables_.num_free();
+    std::fill_n(column_.begin(), free, 0);
+    AddRows(q(fixed), stride_, rank_ - fixed, z_.data() + fixed, free,
+            column_.data());
+    Count(rank_ - fixed, free);
+    for (int e = 0; e < fixed; ++e) {
+      column_[variables_.fixed_column(e)] = z_[e];
+    }
+    Dots(row(first), stride_, rows, column_.data(), n_, residual);
   }
-  KeepUnattainableResiduals(size, level);
+  for (int i = 0; i < rows; ++i) residual[i] -= target_[first + i];
 }
 
 // Solves the rows of a level for its entries of z. Those of the levels before are
 // given, and `target` is by row of the level.
 void LexicographicFactorization::SolveRows(const Level& level,
                                            const double* target, double* z) {
+  if (!level.has_effective_rows()) return;
   const int first = level.first_row, rows = level.end_row - first;
   if (level.deficient) {
     // H D (t - L z), where z is known.
@@ -473,14 +502,23 @@ double LexicographicFactorization::norm_z() const {
 
 double LexicographicFactorization::Gradient(int level, double* gradient) const {
   const Level& of = levels_[level];
-  std::fill_n(gradient, of.rank_begin, 0);
+  const auto& rows = of.is_determined ? work_ : l_;
+  double* sum = of.is_determined ? column_.data() : gradient;
+  std::fill_n(sum, of.rank_begin, 0);
   double size = 0, largest = 0;
   for (int a = of.first_row; a < of.end_row; ++a) {
     if (residual_[a] == 0) continue;
     const double factor = weight(a) * residual_[a];
     size = std::max(size, std::abs(factor));
-    AddRows(&l_[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
-            of.rank_begin, gradient);
+    AddRows(&rows[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
+            of.rank_begin, sum);
+  }
+  if (of.is_determined) {
+    const int fixed = variables_.size();
+    for (int e = 0; e < fixed; ++e)
+      gradient[e] = sum[variables_.fixed_column(e)];
+    Dots(q(fixed), stride_, of.rank_begin - fixed, sum, variables_.num_free(),
+         gradient + fixed);
   }
   for (int e = 0; e < of.rank_begin; ++e) {
     largest = std::max(largest, std::abs(gradient[e]));
@@ -493,8 +531,9 @@ void LexicographicFactorization::SolveDual(int level, double* rhs, double* nu) {
     const Level& from = levels_[above];
     const int first = from.first_row, rows = from.end_row - first;
     const int begin = from.deficient ? from.rank_begin : 0;
-    CountTriangle(from, begin);
     std::fill_n(nu + first, rows, 0);
+    if (!from.has_effective_rows()) continue;
+    CountTriangle(from, begin);
     for (int e = from.rank_end - 1; e >= from.rank_begin; --e) {
       const double* l = effective(e);
       const double value = rhs[e] / l[e], minus = -value;

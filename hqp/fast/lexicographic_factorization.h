@@ -181,6 +181,10 @@ class LexicographicFactorization {
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
+    /// The levels before determine y. Such a level has no rows of L: its residuals and
+    /// its gradient are computed from y and its rows, which stay as they were set.
+    bool is_determined = false;
+    bool has_effective_rows() const { return rank_begin < rank_end; }
   };
   const double* q(int e) const {
     return q_.data() + static_cast<std::size_t>(e) * stride_;
@@ -202,6 +206,7 @@ class LexicographicFactorization {
   int TakePivot(int* open);
   void Reduce(Level* level);
   void SolveLevel(const Level& level);
+  void FindResiduals(const Level& level);
   void CountTriangle(const Level& level, int begin);
   void SolveRows(const Level& level, const double* target, double* z);
   void KeepUnattainableResiduals(double size, const Level& level);
@@ -222,6 +227,7 @@ class LexicographicFactorization {
   std::vector<int> carrier_;        ///< Row that an effective row replaces.
   std::vector<double> reflection_;  ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_, packed_;
+  mutable std::vector<double> column_;  ///< A vector by column, in Gradient().
   std::vector<bool> chosen_;
   std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
   std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.

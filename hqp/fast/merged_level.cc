@@ -112,6 +112,10 @@ int LexicographicFactorization::Release(int e) {
 
 bool LexicographicFactorization::AppendRow() {
   const int a = num_rows_ - 1;
+  if (rank_ == n_) {
+    --num_rows_;
+    return false;
+  }
   ProjectRow(a);
   if (rest_[a] < tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
     TakeOut(variables_.size(), rank_, row(a),
@@ -119,7 +123,7 @@ bool LexicographicFactorization::AppendRow() {
     rest_[a] = SquaredNorm(row(a), variables_.num_free());
   }
   const double norm = std::sqrt(rest_[a]);
-  if (rank_ == n_ || norm < tolerances::kIndependentPart) {
+  if (norm < tolerances::kIndependentPart) {
     --num_rows_;
     return false;
   }
@@ -127,7 +131,7 @@ bool LexicographicFactorization::AppendRow() {
   std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
   l[rank_] = norm;
   const int columns = variables_.num_free();
-  for (int j = 0; j < columns; ++j) q(rank_)[j] = row(a)[j] / norm;
+  kernels::Divide(row(a), norm, columns, q(rank_));
   kept_.Extend(q(rank_), columns);
   Count(2 * kept_.size(), columns);
   carrier_[rank_] = a;

@@ -67,7 +67,7 @@ void ParametricSearch::Pause(const Sides& side) {
 // Replaces side_ by `side`. A row whose side differs has no multiplier from then on.
 void ParametricSearch::TakeWorkingSet(const Sides& side) {
   for (size_t level = 0; level < side.size(); ++level) {
-    if (side[level] == side_[level]) continue;
+    if (AreSame(side[level], side_[level])) continue;
     for (size_t i = 0; i < side[level].size(); ++i) {
       if (side[level][i] == side_[level][i]) continue;
       start_.Remove(static_cast<int>(level), static_cast<int>(i));

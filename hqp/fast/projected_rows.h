@@ -27,6 +27,11 @@ class ProjectedRows {
   /// is not there.
   [[nodiscard]] bool Use(int key, double* coefficients, double* remainder);
 
+  /// Marks a row as used, if it is there.
+  void Keep(int key) {
+    if (slot_[key] >= 0) is_used_[slot_[key]] = true;
+  }
+
   /// Removes all rows that are not marked as used, and all marks. Added rows
   /// are marked.
   void KeepUsed();

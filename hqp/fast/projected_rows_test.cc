@@ -137,8 +137,9 @@ TEST_F(ProjectedRowsTest, KeepsOnlyUsedRows) {
   for (const int key : {0, 3}) {
     EXPECT_TRUE(projected_.Use(key, l.data(), rest.data()));
   }
+  for (const int key : {8, 1}) projected_.Keep(key);  // Row 1 is not there.
   projected_.KeepUsed();
-  keys_ = {0, 3};
+  keys_ = {0, 3, 8};
   ExpectSplits(2);
 }
 

@@ -13,11 +13,14 @@ namespace {
 
 constexpr int kNoKey = LexicographicFactorization::kNoKey;
 
+// Most rows have one entry.
 double Norm(const double* row, Span span) {
+  if (span.size == 1) return std::abs(row[span.first]);
   return std::sqrt(kernels::SquaredNorm(row + span.first, span.size));
 }
 
 double AbsoluteSum(const double* row, Span span) {
+  if (span.size == 1) return std::abs(row[span.first]);
   return kernels::AbsoluteSum(row + span.first, span.size);
 }
 
@@ -305,7 +308,7 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side) {
   const int factored = leading_.num_levels();
   int met = NumMet(), same = 0;
-  while (same < factored && side[same] == factored_[same]) ++same;
+  while (same < factored && AreSame(side[same], factored_[same])) ++same;
   if (same > met) {
     if (same < num_leading_) FactorFrom(hierarchy, side, same, met > 0);
     return true;
@@ -364,7 +367,7 @@ void WorkingSetProblem::ChangeSides(const Hierarchy& hierarchy,
   }
   int changed = met;
   while (changed < leading_.num_levels() &&
-         side[changed] == factored_[changed]) {
+         AreSame(side[changed], factored_[changed])) {
     ++changed;
   }
   leading_.Truncate(changed);
@@ -378,7 +381,7 @@ int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
                                   int met) const {
   int changes = 0;
   for (int level = 0; level < met; ++level) {
-    if (side[level] == factored_[level]) continue;
+    if (AreSame(side[level], factored_[level])) continue;
     for (size_t i = 0; i < side[level].size(); ++i) {
       const Side before = factored_[level][i], after = side[level][i];
       if (before == after) continue;
