@@ -115,23 +115,24 @@ void LexicographicFactorization::FactorLevel() {
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
   level.rank_begin = level.rank_end = rank_;
+  level.deficient = level.end_row > level.first_row;
   level.is_determined = rank_ == n_;
-  if (!level.is_determined) {
-    for (int a = level.first_row; a < level.end_row; ++a) ProjectRow(a);
-    PivotRows(&level);
-  }
-  const int rows = level.end_row - level.first_row;
-  level.deficient = level.rank_end - level.rank_begin < rows;
-  rank_ = level.rank_end;
-  if (level.is_determined) {
-    Count(rows, n_);
-  } else if (level.deficient) {
-    Reduce(&level);
-  } else {
-    CopyEffective(level);
-  }
+  if (!level.is_determined) FactorRows(&level);
   SolveLevel(level);
   levels_.push_back(level);
+}
+
+void LexicographicFactorization::FactorRows(Level* level) {
+  for (int a = level->first_row; a < level->end_row; ++a) ProjectRow(a);
+  PivotRows(level);
+  const int rows = level->end_row - level->first_row;
+  level->deficient = level->rank_end - level->rank_begin < rows;
+  rank_ = level->rank_end;
+  if (level->deficient) {
+    Reduce(level);
+  } else {
+    CopyEffective(*level);
+  }
 }
 
 // Each row of a level that is not deficient is an effective row.
@@ -351,23 +352,21 @@ void LexicographicFactorization::SolveLevel(const Level& level) {
 
 void LexicographicFactorization::FindResiduals(const Level& level) {
   const int first = level.first_row, rows = level.end_row - first;
-  double* residual = &residual_[first];
+  double* residual = residual_.data() + first;
   std::fill_n(residual, rows, 0);
   if (!level.deficient) return;
-  if (!level.is_determined) {
+  if (level.is_determined) {
+    const int fixed = variables_.size(), free = variables_.num_free();
+    double* y = column_.data();
+    std::fill_n(y, free, 0);
+    AddRows(q(fixed), stride_, rank_ - fixed, z_.data() + fixed, free, y);
+    for (int e = 0; e < fixed; ++e) y[variables_.fixed_column(e)] = z_[e];
+    Dots(row(first), stride_, rows, y, n_, residual);
+    Count(rank_ - fixed, free);
+    Count(rows, n_);
+  } else {
     Dots(&l_[static_cast<size_t>(first) * stride_], stride_, rows, z_.data(),
          level.rank_end, residual);
-  } else {
-    // y by column.
-    const int fixed = variables_.size(), free = variables_.num_free();
-    std::fill_n(column_.begin(), free, 0);
-    AddRows(q(fixed), stride_, rank_ - fixed, z_.data() + fixed, free,
-            column_.data());
-    Count(rank_ - fixed, free);
-    for (int e = 0; e < fixed; ++e) {
-      column_[variables_.fixed_column(e)] = z_[e];
-    }
-    Dots(row(first), stride_, rows, column_.data(), n_, residual);
   }
   for (int i = 0; i < rows; ++i) residual[i] -= target_[first + i];
 }
@@ -502,6 +501,7 @@ double LexicographicFactorization::norm_z() const {
 
 double LexicographicFactorization::Gradient(int level, double* gradient) const {
   const Level& of = levels_[level];
+  // A level that is determined has its rows instead of those of L.
   const auto& rows = of.is_determined ? work_ : l_;
   double* sum = of.is_determined ? column_.data() : gradient;
   std::fill_n(sum, of.rank_begin, 0);
@@ -515,8 +515,9 @@ double LexicographicFactorization::Gradient(int level, double* gradient) const {
   }
   if (of.is_determined) {
     const int fixed = variables_.size();
-    for (int e = 0; e < fixed; ++e)
+    for (int e = 0; e < fixed; ++e) {
       gradient[e] = sum[variables_.fixed_column(e)];
+    }
     Dots(q(fixed), stride_, of.rank_begin - fixed, sum, variables_.num_free(),
          gradient + fixed);
   }

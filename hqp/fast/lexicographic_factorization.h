@@ -64,7 +64,8 @@ class LexicographicFactorization {
   /// Gives the row a that was added last a key. The row's projection on the
   /// merged levels is then kept under this key, and follows RemoveRow(),
   /// AppendRow() and Merge(). Returns true if it is known, so that the caller
-  /// need not fill row(a).
+  /// need not fill row(a). Returns false as well if the levels before determine y: their
+  /// row(a) is not projected.
   [[nodiscard]] bool Recall(int a, int key);
 
   /// Forgets the projections of keys without Recall() since the last call.
@@ -194,6 +195,7 @@ class LexicographicFactorization {
     return effective_.data() + static_cast<std::size_t>(e) * stride_;
   }
   void Renumber(int level);
+  void FactorRows(Level* level);
   void CopyEffective(const Level& level);
   int Release(int e);
   void FixLast(int variable, double entry);
@@ -227,7 +229,7 @@ class LexicographicFactorization {
   std::vector<int> carrier_;        ///< Row that an effective row replaces.
   std::vector<double> reflection_;  ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_, packed_;
-  mutable std::vector<double> column_;  ///< A vector by column, in Gradient().
+  mutable std::vector<double> column_;  ///< By column: y, or a gradient.
   std::vector<bool> chosen_;
   std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
   std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.
