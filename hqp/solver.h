@@ -12,7 +12,7 @@ namespace poise {
 
 /// The fast solver: active-set methods on one factorisation of all levels. Each
 /// solve follows a path from the last optimum. A primal method is used if there is
-/// no last optimum, or if the path is long and the time is not limited. If that
+/// no last optimum, or if the path is given up (hqp/fast/search.md). If that
 /// answer is not certified, the levels are solved one after the other. See
 /// docs/hqp.md and hqp/fast/README.md.
 class Solver {

@@ -32,9 +32,10 @@ struct Work {
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The time covers the check of the input, refinement,
 /// multipliers and the certificate. The constants are a fit to 55600 solves of 24
-/// sequences, each the fastest of 15 runs with its rows in the cache. Of others, recorded
-/// with this model, that are modelled with 250 to 350 us, 90 % took between 0.76 and 1.16 of
-/// this time, and 99 % less than 1.30 (docs/notebook/2026-11-29-answers.md).
+/// sequences, each the fastest of 15 runs with its rows in the cache. The solver has become
+/// faster since: solves that are modelled with 250 to 350 us take 0.93 of this time in the
+/// median, 90 % between 0.76 and 1.17, and 99 % less than 1.24
+/// (docs/notebook/2026-11-29-kernels.md).
 inline double ModelledSeconds(const Work& work) {
   constexpr double kPerSolve = 3.3e-6, kPerEntry = 6.0e-9, kPerActive = 0.67e-6;
   constexpr double kPerWorkingSet = 5.5e-6, kPerPartOfOne = 4.0e-6;
