@@ -8,6 +8,8 @@
 #include "poise/hqp/four_doubles.h"
 #include "poise/math/target_clones.h"
 
+POISE_NO_OTHER_VECTORS
+
 namespace poise {
 namespace {
 
@@ -108,9 +110,11 @@ bool AreZeroOutside(const double* rows, int stride, const Span* spans,
   std::uint64_t bits = 0;
   const double* begin = rows;
   for (int i = 0; i < count; ++i) {
-    const double* span = rows + static_cast<long>(i) * stride + spans[i].first;
+    const auto [first, size] = spans[i];
+    if (first < 0 || size < 0 || first + size > stride) return false;
+    const double* span = rows + static_cast<long>(i) * stride + first;
     bits |= BitsOf(begin, static_cast<int>(span - begin));
-    begin = span + spans[i].size;
+    begin = span + size;
   }
   const double* end = rows + static_cast<long>(count) * stride;
   return (bits | BitsOf(begin, static_cast<int>(end - begin))) == 0;

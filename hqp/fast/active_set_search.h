@@ -28,9 +28,9 @@ class ActiveSetSearch {
   ActiveSetSearch(int num_variables,
                   const std::vector<LevelCapacity>& capacity);
 
-  /// Searches on all levels at once, from the working set `side`. Returns true if `problem`
-  /// is solved for the optimum and has all its multipliers, or false
-  /// if the budget, or `limit` iterations of it, did not suffice. The primal method
+  /// Searches on all levels at once, from the working set `side`. Returns whether the
+  /// optimum was found: `problem` is then solved for it and has all its multipliers. If
+  /// not, the budget, or `limit` iterations of it, did not suffice. The primal method
   /// starts from the optimum of this working set, or from y() if y() violates fewer
   /// rows, or is not worse if the search goes on. Rows violated there are added to the
   /// working set, at once or by later steps.

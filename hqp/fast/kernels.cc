@@ -7,6 +7,8 @@
 #include "poise/hqp/four_doubles.h"
 #include "poise/math/target_clones.h"
 
+POISE_NO_OTHER_VECTORS
+
 namespace poise::kernels {
 namespace {
 
@@ -187,18 +189,10 @@ void AddToRows(double* rows, int stride, const int* index, int count,
   AddToRowsOf(Chosen<double>{{rows, stride}, index}, count, factor, x, n);
 }
 
-// A quotient q from the reciprocal has the remainder x - q divisor, which corrects its last
-// digit (Markstein, Computation of elementary functions on the IBM RISC System/6000
-// processor, 1990). A fused multiply-add computes this remainder without rounding. A
-// division takes five times as long.
 POISE_TARGET_CLONES("fma")
 void Divide(const double* x, double divisor, int n, double* out) {
-  const double reciprocal = 1 / divisor;
   int j = 0;
-  for (; j + 4 <= n; j += 4) {
-    const Four xj = POISE_LOAD(x + j), q = xj * reciprocal;
-    POISE_STORE(out + j) = q + (xj - q * divisor) * reciprocal;
-  }
+  for (; j + 4 <= n; j += 4) POISE_STORE(out + j) = POISE_LOAD(x + j) / divisor;
   for (; j < n; ++j) out[j] = x[j] / divisor;
 }
 

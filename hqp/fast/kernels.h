@@ -53,8 +53,7 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n);
 
-/// out_j = x_j / divisor. With fused multiply-add the quotients are rounded correctly, and
-/// else to one unit in the last place. pre: 1 / divisor and all numbers are normal or zero.
+/// out_j = x_j / divisor. `out` may be `x`.
 void Divide(const double* x, double divisor, int n, double* out);
 
 /// out_j = factor_j x_j, or 0 where |x_j| < least.

@@ -184,25 +184,24 @@ TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
   });
 }
 
-// A product with the divisor is the dividend, with the rounding of a quotient, half a unit
-// in the last place, and that of the product. Without fused multiply-add, the quotient may
-// be rounded twice. Quotients of multiples of the divisor are exact.
+// A product with the divisor is the dividend, but for half a unit in the last place of the
+// quotient and of the product. The same holds for
+// the quotient of such a product, also in place.
 TEST_F(KernelsTest, DivideIsTheInverseOfMultiplication) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   for (const double divisor : {3.0, -0.7, 1e-9, 4.1e12}) {
     for (int n = 0; n <= kMaxSize; ++n) {
-      std::vector<double> out(kStride, kUntouched), multiple = out;
+      std::vector<double> out(kStride, kUntouched), multiples = x_;
       kernels::Divide(x_.data(), divisor, n, out.data());
+      for (int j = 0; j < n; ++j) multiples[j] *= divisor;
+      kernels::Divide(multiples.data(), divisor, n, multiples.data());
       for (int j = 0; j < n; ++j) {
-        EXPECT_NEAR(out[j] * divisor, x_[j], 1.5 * kEpsilon * std::abs(x_[j]));
-        multiple[j] = j * divisor;
+        EXPECT_NEAR(out[j] * divisor, x_[j], kEpsilon * std::abs(x_[j])) << j;
+        EXPECT_NEAR(multiples[j], x_[j], kEpsilon * std::abs(x_[j])) << j;
       }
-      kernels::Divide(multiple.data(), divisor, n, multiple.data());
-      for (int j = 0; j < kStride; ++j) {
-        if (j >= n) {
-          EXPECT_EQ(out[j], kUntouched);
-        }
-        EXPECT_NEAR(multiple[j], j < n ? j : kUntouched, kEpsilon * j);
+      for (int j = n; j < kStride; ++j) {
+        EXPECT_EQ(out[j], kUntouched) << j;
+        EXPECT_EQ(multiples[j], x_[j]) << j;
       }
     }
   }

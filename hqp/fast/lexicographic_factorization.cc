@@ -50,7 +50,6 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   cosine_.resize(n_);
   sine_.resize(n_);
   packed_.resize(n_);
-  column_.resize(n_);
   chosen_.resize(max_rows);
   open_.resize(max_rows);
   nonzero_.resize(max_rows);
@@ -115,9 +114,12 @@ void LexicographicFactorization::FactorLevel() {
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
   level.rank_begin = level.rank_end = rank_;
-  level.deficient = level.end_row > level.first_row;
   level.is_determined = rank_ == n_;
-  if (!level.is_determined) FactorRows(&level);
+  if (level.is_determined) {
+    level.deficient = level.end_row > level.first_row;
+  } else {
+    FactorRows(&level);
+  }
   SolveLevel(level);
   levels_.push_back(level);
 }
@@ -357,7 +359,7 @@ void LexicographicFactorization::FindResiduals(const Level& level) {
   if (!level.deficient) return;
   if (level.is_determined) {
     const int fixed = variables_.size(), free = variables_.num_free();
-    double* y = column_.data();
+    double* y = packed_.data();
     std::fill_n(y, free, 0);
     AddRows(q(fixed), stride_, rank_ - fixed, z_.data() + fixed, free, y);
     for (int e = 0; e < fixed; ++e) y[variables_.fixed_column(e)] = z_[e];
@@ -475,12 +477,17 @@ void LexicographicFactorization::Reflect(int e, int rows, double* x) const {
 
 void LexicographicFactorization::Project(const double* y, int rank,
                                          double* on_basis) {
+  for (int c = 0; c < n_; ++c) packed_[c] = y[variables_.variable(c)];
+  ProjectColumns(packed_.data(), rank, on_basis);
+}
+
+// Project() for a vector by column.
+void LexicographicFactorization::ProjectColumns(const double* y, int rank,
+                                                double* on_basis) {
   const int fixed = std::min(rank, variables_.size());
   const int columns = variables_.num_free();
-  for (int e = 0; e < fixed; ++e) on_basis[e] = y[variables_.fixed_variable(e)];
-  for (int c = 0; c < columns; ++c) packed_[c] = y[variables_.variable(c)];
-  Dots(q(fixed), stride_, rank - fixed, packed_.data(), columns,
-       on_basis + fixed);
+  for (int e = 0; e < fixed; ++e) on_basis[e] = y[variables_.fixed_column(e)];
+  Dots(q(fixed), stride_, rank - fixed, y, columns, on_basis + fixed);
   Count(rank - fixed, columns);
 }
 
@@ -499,11 +506,11 @@ double LexicographicFactorization::norm_z() const {
   return std::sqrt(SquaredNorm(z_.data(), rank_));
 }
 
-double LexicographicFactorization::Gradient(int level, double* gradient) const {
+double LexicographicFactorization::Gradient(int level, double* gradient) {
   const Level& of = levels_[level];
-  // A level that is determined has its rows instead of those of L.
+  // If the levels before determine y, the gradient is a sum of the rows themselves.
   const auto& rows = of.is_determined ? work_ : l_;
-  double* sum = of.is_determined ? column_.data() : gradient;
+  double* sum = of.is_determined ? packed_.data() : gradient;
   std::fill_n(sum, of.rank_begin, 0);
   double size = 0, largest = 0;
   for (int a = of.first_row; a < of.end_row; ++a) {
@@ -513,14 +520,7 @@ double LexicographicFactorization::Gradient(int level, double* gradient) const {
     AddRows(&rows[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
             of.rank_begin, sum);
   }
-  if (of.is_determined) {
-    const int fixed = variables_.size();
-    for (int e = 0; e < fixed; ++e) {
-      gradient[e] = sum[variables_.fixed_column(e)];
-    }
-    Dots(q(fixed), stride_, of.rank_begin - fixed, sum, variables_.num_free(),
-         gradient + fixed);
-  }
+  if (of.is_determined) ProjectColumns(sum, of.rank_begin, gradient);
   for (int e = 0; e < of.rank_begin; ++e) {
     largest = std::max(largest, std::abs(gradient[e]));
   }

@@ -64,8 +64,8 @@ class LexicographicFactorization {
   /// Gives the row a that was added last a key. The row's projection on the
   /// merged levels is then kept under this key, and follows RemoveRow(),
   /// AppendRow() and Merge(). Returns true if it is known, so that the caller
-  /// need not fill row(a). Returns false as well if the levels before determine y: their
-  /// row(a) is not projected.
+  /// need not fill row(a). Also returns false if the levels before determine y, because the
+  /// row is then not projected.
   [[nodiscard]] bool Recall(int a, int key);
 
   /// Forgets the projections of keys without Recall() since the last call.
@@ -166,7 +166,7 @@ class LexicographicFactorization {
   /// Computes the first rank(level - 1) entries of the level's gradient in z,
   /// sum_a d_a^2 residual_a (row a of L). Returns the magnitude of its terms,
   /// or 0 if the gradient is zero.
-  double Gradient(int level, double* gradient) const;
+  double Gradient(int level, double* gradient);
 
   /// Computes multipliers nu of the rows of the levels before `level`, by row,
   /// with sum_a nu_a r_a = Q' rhs. Overwrites rhs, of rank(level - 1) entries.
@@ -182,8 +182,8 @@ class LexicographicFactorization {
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
-    /// The levels before determine y. Such a level has no rows of L: its residuals and
-    /// its gradient are computed from y and its rows, which stay as they were set.
+    /// Whether the levels before determine y. The level then has no rows of L: its
+    /// residuals are computed from y, and its gradient from the rows as they were set.
     bool is_determined = false;
     bool has_effective_rows() const { return rank_begin < rank_end; }
   };
@@ -196,6 +196,7 @@ class LexicographicFactorization {
   }
   void Renumber(int level);
   void FactorRows(Level* level);
+  void ProjectColumns(const double* y, int rank, double* on_basis);
   void CopyEffective(const Level& level);
   int Release(int e);
   void FixLast(int variable, double entry);
@@ -229,7 +230,6 @@ class LexicographicFactorization {
   std::vector<int> carrier_;        ///< Row that an effective row replaces.
   std::vector<double> reflection_;  ///< n x max_rows.
   std::vector<double> factor_, scratch_, cosine_, sine_, packed_;
-  mutable std::vector<double> column_;  ///< By column: y, or a gradient.
   std::vector<bool> chosen_;
   std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
   std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.

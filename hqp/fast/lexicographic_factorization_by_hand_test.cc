@@ -417,6 +417,41 @@ TEST_F(LexicographicFactorizationTest, TreatsRoundingOfALargeWeightRowAsZero) {
   }
 }
 
+// y = (2, 3, 4) is determined by two fixed variables, y2 = 4 and y0 = 2, and by
+// 0.6 y0 + 0.8 y1 = 3.6. The level after has the rows y1 = 1 and 0.6 y0 + 0.8 y2 = 9.4, with
+// the residuals 2 and -5 and the weights 1 and 4. Its gradient in y is then
+// 2 e1 - 20 (0.6 e0 + 0.8 e2) = (-12, 2, -16).
+TEST(LexicographicFactorizationOfFixedVariables, LeavesALevelWithoutFreedom) {
+  LexicographicFactorization stack(3, 5, 2);
+  const auto add = [&](double y0, double y1, double y2, double target,
+                       double metric) {
+    const double row[3] = {y0, y1, y2};
+    stack.SetRow(stack.AddRow(target, metric), row, 0, 3, 1);
+  };
+  stack.AddFixedVariable(2, 1, 4, 1);
+  stack.AddFixedVariable(0, -1, -2, 1);
+  add(0.6, 0.8, 0, 3.6, 1);
+  ASSERT_TRUE(stack.FactorMerged(1));
+  add(0, 1, 0, 1, 1);
+  add(0.6, 0, 0.8, 9.4, 2);
+  stack.FactorLevel();
+  EXPECT_TRUE(stack.is_deficient(1));
+  EXPECT_EQ(stack.rank(1), 3);
+  EXPECT_NEAR(stack.residual(3), 2, Rounding(4, 3));
+  EXPECT_NEAR(stack.residual(4), -5, Rounding(9.4, 3));
+  double gradient[3], y[3] = {};
+  EXPECT_NEAR(stack.Gradient(1, gradient), 20, Rounding(40, 3));
+  stack.AddCombination(gradient, 3, y);
+  EXPECT_NEAR(y[0], -12, Rounding(40, 3));
+  EXPECT_NEAR(y[1], 2, Rounding(40, 3));
+  EXPECT_NEAR(y[2], -16, Rounding(40, 3));
+  // With y2 = -1 instead, the second residual is 1.2 - 0.8 - 9.4 = -9.
+  stack.SetTarget(0, -1);
+  stack.SolveFrom(0);
+  EXPECT_NEAR(stack.residual(3), 2, Rounding(4, 3));
+  EXPECT_NEAR(stack.residual(4), -9, Rounding(9.4, 3));
+}
+
 TEST_F(LexicographicFactorizationTest, DoesNotAllocate) {
   LexicographicFactorization stack(2, 4, 2);
   double force[2] = {1, 2}, nu[4], residual[4] = {}, change[2];

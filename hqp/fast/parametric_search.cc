@@ -7,6 +7,7 @@
 
 #include "poise/hqp/fast/infinitesimals.h"
 #include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/same_sides.h"
 #include "poise/hqp/fast/tolerances.h"
 
 namespace poise {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "poise/hqp/fast/kernels.h"
+#include "poise/hqp/fast/same_sides.h"
 #include "poise/hqp/fast/tolerances.h"
 
 namespace poise {

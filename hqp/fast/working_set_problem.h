@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "poise/hqp/fast/budget.h"
@@ -13,14 +12,6 @@
 #include "poise/hqp/solution.h"
 
 namespace poise {
-
-/// Returns whether two working sets of a level, with the same number of rows, are the
-/// same. Faster than operator==, which compares row by row.
-inline bool AreSame(const std::vector<Side>& side,
-                    const std::vector<Side>& other) {
-  return std::memcmp(side.data(), other.data(), side.size() * sizeof(Side)) ==
-         0;
-}
 
 /// Solves a hierarchy whose working set is taken as equalities of their own
 /// levels. The leading levels are solved by one LexicographicFactorization, the

@@ -232,8 +232,9 @@ void RandomWorkingSetProblemTest::CheckSize(int level) {
   const bool is_leading = level < problem_.num_leading();
   const int rows = problem_.leading().num_rows();
   std::vector<double> gradient(n_ + rows), left(n_);
+  LexicographicFactorization leading = problem_.leading();
   double largest =
-      is_leading ? problem_.leading().Gradient(level, gradient.data())
+      is_leading ? leading.Gradient(level, gradient.data())
                  : problem_.diagonal().Dual(problem_.leading(),
                                             level - problem_.num_leading(),
                                             gradient.data(), left.data());
