@@ -188,8 +188,11 @@ TEST(RowSums, FindEveryEntryOutsideASpan) {
   const auto are_zero = [&rows](int i) {
     return AreZeroOutside(rows.row(i), kStride, &rows.spans[i], 1);
   };
-  EXPECT_TRUE(AreZeroOutside(rows.entries.data(), kStride, rows.spans.data(),
-                             rows.count()));
+  const auto are_all_zero = [&rows] {
+    return AreZeroOutside(rows.entries.data(), kStride, rows.spans.data(),
+                          rows.count());
+  };
+  EXPECT_TRUE(are_all_zero());
   for (int i = 0; i < rows.count(); ++i) {
     for (int j = 0; j < kStride; ++j) {
       const Span span = rows.spans[i];
@@ -200,11 +203,26 @@ TEST(RowSums, FindEveryEntryOutsideASpan) {
             std::numeric_limits<double>::quiet_NaN()}) {
         entry = value;
         EXPECT_FALSE(are_zero(i)) << i << " " << j << " " << value;
+        EXPECT_FALSE(are_all_zero()) << i << " " << j << " " << value;
       }
       entry = -0.0;
       EXPECT_TRUE(are_zero(i));
       entry = 0;
     }
+  }
+}
+
+// A span that goes beyond its row would hide entries of the next one.
+TEST(RowSums, RefuseSpansBeyondTheRow) {
+  const std::vector<double> rows(3 * kStride, 0);
+  for (const Span span :
+       {Span{-1, 2}, Span{1, kStride}, Span{kStride, 1}, Span{2, -1}}) {
+    const Span spans[3] = {{0, kStride}, span, {0, kStride}};
+    EXPECT_FALSE(AreZeroOutside(rows.data(), kStride, spans, 3))
+        << span.first << " " << span.size;
+  }
+  for (const Span span : {Span{0, kStride}, Span{kStride, 0}, Span{0, 0}}) {
+    EXPECT_TRUE(AreZeroOutside(rows.data(), kStride, &span, 1));
   }
 }
 
