@@ -185,8 +185,7 @@ TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
 }
 
 // A product with the divisor is the dividend, but for half a unit in the last place of the
-// quotient and of the product. The same holds for
-// the quotient of such a product, also in place.
+// quotient and of the product. The same holds for the quotient of such a product, in place.
 TEST_F(KernelsTest, DivideIsTheInverseOfMultiplication) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   for (const double divisor : {3.0, -0.7, 1e-9, 4.1e12}) {
