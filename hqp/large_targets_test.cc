@@ -29,8 +29,8 @@ Hierarchy WithTargets(const HierarchyCase& drawn, double factor) {
   return to;
 }
 
-// Refinement then moves y by more than rounding of its small entries, and the multipliers of
-// the search must suffice all the same.
+// The multipliers are those of the search, before y was refined. They must suffice for the
+// certificate where targets are large as well.
 TEST(LargeTargets, AreCertified) {
   RandomHierarchyOptions options;
   options.degenerate = 0;  // Where rows depend on each other, rounding decides.

@@ -183,8 +183,8 @@ bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
     problem_.Refine(hierarchy);
     if (pass == kMaxRefinementPasses || !AddViolated(hierarchy, true)) break;
   }
-  // The search has found the multipliers. Refinement moves y little, also where targets are
-  // large (large_targets_test.cc), so that these are refined only.
+  // The search has found the multipliers. Refined, they are certified also where targets are
+  // large (large_targets_test.cc).
   problem_.RefineMultipliers(hierarchy);
   return true;
 }

@@ -114,8 +114,7 @@ void LexicographicFactorization::FactorLevel() {
   level.first_row = levels_.empty() ? 0 : levels_.back().end_row;
   level.end_row = num_rows_;
   level.rank_begin = level.rank_end = rank_;
-  level.is_determined = rank_ == n_;
-  if (level.is_determined) {
+  if (IsDetermined(level)) {
     level.deficient = level.end_row > level.first_row;
   } else {
     FactorRows(&level);
@@ -357,14 +356,9 @@ void LexicographicFactorization::FindResiduals(const Level& level) {
   double* residual = residual_.data() + first;
   std::fill_n(residual, rows, 0);
   if (!level.deficient) return;
-  if (level.is_determined) {
-    const int fixed = variables_.size(), free = variables_.num_free();
-    double* y = packed_.data();
-    std::fill_n(y, free, 0);
-    AddRows(q(fixed), stride_, rank_ - fixed, z_.data() + fixed, free, y);
-    for (int e = 0; e < fixed; ++e) y[variables_.fixed_column(e)] = z_[e];
-    Dots(row(first), stride_, rows, y, n_, residual);
-    Count(rank_ - fixed, free);
+  if (IsDetermined(level)) {
+    CombineColumns(z_.data(), rank_, packed_.data());
+    Dots(row(first), stride_, rows, packed_.data(), n_, residual);
     Count(rows, n_);
   } else {
     Dots(&l_[static_cast<size_t>(first) * stride_], stride_, rows, z_.data(),
@@ -493,12 +487,18 @@ void LexicographicFactorization::ProjectColumns(const double* y, int rank,
 
 void LexicographicFactorization::AddCombination(const double* z, int rank,
                                                 double* y) {
+  CombineColumns(z, rank, packed_.data());
+  for (int c = 0; c < n_; ++c) y[variables_.variable(c)] += packed_[c];
+}
+
+// Computes Q' z by column, with the first `rank` rows of Q.
+void LexicographicFactorization::CombineColumns(const double* z, int rank,
+                                                double* y) {
   const int fixed = std::min(rank, variables_.size());
   const int columns = variables_.num_free();
-  for (int e = 0; e < fixed; ++e) y[variables_.fixed_variable(e)] += z[e];
-  std::fill_n(packed_.begin(), columns, 0);
-  AddRows(q(fixed), stride_, rank - fixed, z + fixed, columns, packed_.data());
-  for (int c = 0; c < columns; ++c) y[variables_.variable(c)] += packed_[c];
+  std::fill_n(y, n_, 0);
+  for (int e = 0; e < fixed; ++e) y[variables_.fixed_column(e)] = z[e];
+  AddRows(q(fixed), stride_, rank - fixed, z + fixed, columns, y);
   Count(rank - fixed, columns);
 }
 
@@ -509,8 +509,9 @@ double LexicographicFactorization::norm_z() const {
 double LexicographicFactorization::Gradient(int level, double* gradient) {
   const Level& of = levels_[level];
   // If the levels before determine y, the gradient is a sum of the rows themselves.
-  const auto& rows = of.is_determined ? work_ : l_;
-  double* sum = of.is_determined ? packed_.data() : gradient;
+  const bool is_determined = IsDetermined(of);
+  const auto& rows = is_determined ? work_ : l_;
+  double* sum = is_determined ? packed_.data() : gradient;
   std::fill_n(sum, of.rank_begin, 0);
   double size = 0, largest = 0;
   for (int a = of.first_row; a < of.end_row; ++a) {
@@ -520,7 +521,7 @@ double LexicographicFactorization::Gradient(int level, double* gradient) {
     AddRows(&rows[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
             of.rank_begin, sum);
   }
-  if (of.is_determined) ProjectColumns(sum, of.rank_begin, gradient);
+  if (is_determined) ProjectColumns(sum, of.rank_begin, gradient);
   for (int e = 0; e < of.rank_begin; ++e) {
     largest = std::max(largest, std::abs(gradient[e]));
   }

@@ -164,7 +164,7 @@ class LexicographicFactorization {
   void AddCombination(const double* z, int rank, double* y);
 
   /// Computes the first rank(level - 1) entries of the level's gradient in z,
-  /// sum_a d_a^2 residual_a (row a of L). Returns the magnitude of its terms,
+  /// sum_a d_a^2 residual_a Q r_a'. Returns the magnitude of its terms,
   /// or 0 if the gradient is zero.
   double Gradient(int level, double* gradient);
 
@@ -182,9 +182,6 @@ class LexicographicFactorization {
   struct Level {
     int first_row, end_row, rank_begin, rank_end;
     bool deficient;  ///< rank_end - rank_begin < end_row - first_row.
-    /// Whether the levels before determine y. The level then has no rows of L: its
-    /// residuals are computed from y, and its gradient from the rows as they were set.
-    bool is_determined = false;
     bool has_effective_rows() const { return rank_begin < rank_end; }
   };
   const double* q(int e) const {
@@ -195,8 +192,12 @@ class LexicographicFactorization {
     return effective_.data() + static_cast<std::size_t>(e) * stride_;
   }
   void Renumber(int level);
+  /// Returns whether the levels before determine y. The level then has no rows of L: its
+  /// residuals are computed from y, and its gradient from the rows as they were set.
+  bool IsDetermined(const Level& level) const { return level.rank_begin == n_; }
   void FactorRows(Level* level);
   void ProjectColumns(const double* y, int rank, double* on_basis);
+  void CombineColumns(const double* z, int rank, double* y);
   void CopyEffective(const Level& level);
   int Release(int e);
   void FixLast(int variable, double entry);
@@ -218,7 +219,8 @@ class LexicographicFactorization {
   int n_, stride_, num_rows_ = 0, rank_ = 0, num_merged_ = 0;
   FixedVariables variables_;
   std::vector<Level> levels_;
-  /// max_rows x stride: rows, then remainders, then the rows of Reduce().
+  /// max_rows x stride: rows, then remainders, then the rows of Reduce(). Rows of a level
+  /// that is determined stay.
   std::vector<double> work_;
   std::vector<double> l_;  ///< max_rows x stride: rows of L.
   std::vector<double> q_;  ///< n x stride; see variables().
