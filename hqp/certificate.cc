@@ -73,6 +73,9 @@ Certificate Certifier::Certify(const Hierarchy& hierarchy,
                                                : solution.failed_level;
   for (int level = 0; level < levels; ++level) {
     JudgeLevel(hierarchy, level, solution, &certificate);
+    FindGap(hierarchy, level, solution);
+    certificate.relative_gap =
+        Worse(certificate.relative_gap, RelativeGap(level));
   }
   return certificate;
 }
@@ -102,15 +105,18 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
   for (int level = 0; level < levels; ++level) {
     Certificate certificate = solution->certificate;
     JudgeLevel(hierarchy, level, *solution, &certificate);
-    const bool is_certified = certificate.worst() <= kCertified;
-    if (level != solution->failed_level && is_certified) {
+    const bool is_certified = level != solution->failed_level &&
+                              certificate.worst() <= kCertified;
+    if (is_certified) {
+      FindGap(hierarchy, level, *solution);
       solution->certificate = certificate;
-      continue;
+    } else {
+      // Multipliers that are not certified bound nothing.
+      gap_[level] = cost_[level] + cost_rounding_[level];
     }
-    // Multipliers that are not certified bound nothing.
-    gap_[level] = cost_[level] + cost_rounding_[level];
     solution->certificate.relative_gap =
         Worse(certificate.relative_gap, RelativeGap(level));
+    if (is_certified) continue;
     solution->status = Status::kIterationLimit;
     solution->failed_level = level;
     break;
@@ -122,9 +128,6 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
                            const Solution& solution, Certificate* certificate) {
   JudgeRows(hierarchy, level, solution, certificate);
   JudgeMultipliers(hierarchy, level, solution, certificate);
-  FindGap(hierarchy, level, solution);
-  certificate->relative_gap =
-      Worse(certificate->relative_gap, RelativeGap(level));
 }
 
 // Adds factor_ times the rows of a block to the gradient, and |size_| times their

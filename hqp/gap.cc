@@ -203,18 +203,19 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
     gain +=
         FreeChange(hierarchy, level, above, i, mu[i], radius, norm_y, solution);
   }
+  const double sharp_enough = kSharpEnough * CostScale(level);
   double of_slacks = norm * change_[above];
-  if (of_slacks > kSharpEnough * CostScale(level) && !std::isinf(norm)) {
-    SharpenChanges(hierarchy, above, solution);
-    of_slacks =
-        std::min(norm * change_[above],
-                 GainOfSlacks(hierarchy, level, above, nullptr, solution));
-    const LevelSolution& of = solution.levels[level];
-    if (of.traded_level == above) {
-      of_slacks = std::min(of_slacks, GainOfSlacks(hierarchy, level, above,
-                                                   &of.trade_off, solution));
-    }
-  }
+  if (of_slacks <= sharp_enough || std::isinf(norm)) return gain + of_slacks;
+  SharpenChanges(hierarchy, above, solution);
+  of_slacks = norm * change_[above];
+  const LevelSolution& of = solution.levels[level];
+  const auto sharpen = [&](const Eigen::VectorXd* p) {
+    if (of_slacks <= sharp_enough) return;
+    of_slacks = std::min(of_slacks,
+                         GainOfSlacks(hierarchy, level, above, p, solution));
+  };
+  sharpen(nullptr);
+  if (of.traded_level == above) sharpen(&of.trade_off);
   return gain + of_slacks;
 }
 

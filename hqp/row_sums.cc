@@ -58,16 +58,17 @@ typedef std::uint64_t FourWords
     __attribute__((vector_size(32), aligned(8), may_alias));
 typedef std::uint64_t Word __attribute__((may_alias));
 
-// Returns the bits that are set in any entry, but for the signs.
-POISE_INLINE std::uint64_t BitsOf(const double* x, int n) {
-  const int whole = n - n % 4;
-  FourWords bits = {};
-  for (int j = 0; j < whole; j += 4) {
-    bits |= *reinterpret_cast<const FourWords*>(x + j);
+// Adds the bits of n entries to `bits`.
+POISE_INLINE void AddBits(const double* x, int n, FourWords* bits) {
+  if (n < 4) {
+    for (int j = 0; j < n; ++j) (*bits)[0] |= reinterpret_cast<const Word*>(x)[j];
+    return;
   }
-  std::uint64_t any = (bits[0] | bits[1]) | (bits[2] | bits[3]);
-  for (int j = whole; j < n; ++j) any |= *reinterpret_cast<const Word*>(x + j);
-  return any << 1;
+  for (int j = 0; j < n - 4; j += 4) {
+    *bits |= *reinterpret_cast<const FourWords*>(x + j);
+  }
+  // The last four may overlap with those before.
+  *bits |= *reinterpret_cast<const FourWords*>(x + n - 4);
 }
 
 }  // namespace
@@ -107,17 +108,19 @@ POISE_TARGET_CLONES("avx2")
 bool AreZeroOutside(const double* rows, int stride, const Span* spans,
                     int count) {
   // The entries after a row's span and before that of the next row are neighbours.
-  std::uint64_t bits = 0;
+  FourWords bits = {};
   const double* begin = rows;
   for (int i = 0; i < count; ++i) {
     const auto [first, size] = spans[i];
     if (first < 0 || size < 0 || first + size > stride) return false;
     const double* span = rows + static_cast<long>(i) * stride + first;
-    bits |= BitsOf(begin, static_cast<int>(span - begin));
+    AddBits(begin, static_cast<int>(span - begin), &bits);
     begin = span + size;
   }
   const double* end = rows + static_cast<long>(count) * stride;
-  return (bits | BitsOf(begin, static_cast<int>(end - begin))) == 0;
+  AddBits(begin, static_cast<int>(end - begin), &bits);
+  // The first bit is the sign.
+  return ((bits[0] | bits[1]) | (bits[2] | bits[3])) << 1 == 0;
 }
 
 }  // namespace poise

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "poise/hqp/fast/kernels.h"
+
 namespace poise {
 
 double Certificate::worst() const noexcept {
@@ -87,22 +89,13 @@ void EvaluateLevel(const Hierarchy& hierarchy, int level,
   LevelSolution& out = solution->levels[level];
   auto residual = out.equality_residual.head(hierarchy.num_equalities(level));
   auto slack = out.slack.head(hierarchy.num_inequalities(level));
-  const auto value = [&](const auto& rows, const Span* spans, int i) {
-    const auto [first, size] = spans[i];
-    // Most rows have one entry.
-    if (size == 1) return rows(i, first) * solution->y[first];
-    return rows.row(i)
-        .segment(first, size)
-        .dot(solution->y.segment(first, size));
-  };
-  const auto B = hierarchy.B(level), C = hierarchy.C(level);
-  residual = hierarchy.b(level);
-  for (int i = 0; i < B.rows(); ++i) {
-    residual[i] += value(B, hierarchy.B_span(level), i);
-  }
-  for (int i = 0; i < C.rows(); ++i) {
-    slack[i] = value(C, hierarchy.C_span(level), i);
-  }
+  kernels::SpanDots(hierarchy.B(level).data(), hierarchy.num_variables(),
+                    hierarchy.B_span(level), hierarchy.num_equalities(level),
+                    solution->y.data(), residual.data());
+  residual += hierarchy.b(level);
+  kernels::SpanDots(hierarchy.C(level).data(), hierarchy.num_variables(),
+                    hierarchy.C_span(level), hierarchy.num_inequalities(level),
+                    solution->y.data(), slack.data());
   slack = (lower - slack).cwiseMax(slack - upper).cwiseMax(0);
   out.cost = (residual.cwiseAbs2().dot(hierarchy.weight(level)) +
               slack.squaredNorm()) /

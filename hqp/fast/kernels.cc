@@ -131,6 +131,21 @@ POISE_INLINE void AddToRowsOf(Row row, int count, const double* factor,
   }
 }
 
+POISE_INLINE double SumOfSizes(const double* x, int n) {
+  const int whole = n & ~3;
+  double size = 0;
+  if (whole > 0) {  // Most rows have fewer entries.
+    Four sum = {};
+    for (int j = 0; j < whole; j += 4) {
+      const Four xj = POISE_LOAD(x + j);
+      sum += xj < 0 ? -xj : xj;
+    }
+    size = POISE_SUM(sum);
+  }
+  for (int j = whole; j < n; ++j) size += std::abs(x[j]);
+  return size;
+}
+
 }  // namespace
 
 POISE_TARGET_CLONES("fma")
@@ -148,20 +163,23 @@ void Dots(const double* rows, int stride, const int* index, int count,
 POISE_TARGET_CLONES("fma")
 void SpanDots(const double* rows, int stride, const Span* spans, int count,
               const double* x, double* out) {
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count;) {
     const auto [first, size] = spans[i];
     const double* row = rows + static_cast<long>(i) * stride + first;
     const double* at = x + first;
-    const int whole = size & ~3;
-    double dot = 0;
-    int j = 0;
-    if (whole > 0) {  // Most rows have fewer entries.
-      Four sum = {};
-      for (; j < whole; j += 4) sum += POISE_LOAD(row + j) * POISE_LOAD(at + j);
-      dot = POISE_SUM(sum);
+    if (size < 4) {  // Most rows have so few entries.
+      double dot = 0;
+      for (int j = 0; j < size; ++j) dot += row[j] * at[j];
+      out[i++] = dot;
+      continue;
     }
-    for (; j < size; ++j) dot += row[j] * at[j];
-    out[i] = dot;
+    int same = i + 1;
+    while (same < count && spans[same].first == first &&
+           spans[same].size == size) {
+      ++same;
+    }
+    DotsOf(Apart<const double>{row, stride}, same - i, at, size, out + i);
+    i = same;
   }
 }
 
@@ -279,15 +297,16 @@ void DotWithSize(const double* row, const double* x, int n, double* dot,
 
 POISE_TARGET_CLONES("fma")
 double AbsoluteSum(const double* x, int n) {
-  const int whole = n & ~3;
-  Four sum = {};
-  int j = 0;
-  for (; j < whole; j += 4) {
-    const Four xj = POISE_LOAD(x + j);
-    sum += xj < 0 ? -xj : xj;
+  return SumOfSizes(x, n);
+}
+
+POISE_TARGET_CLONES("fma")
+void SpanAbsoluteSums(const double* rows, int stride, const Span* spans,
+                      int count, double* out) {
+  for (int i = 0; i < count; ++i) {
+    const auto [first, size] = spans[i];
+    out[i] = SumOfSizes(rows + static_cast<long>(i) * stride + first, size);
   }
-  for (; j < n; ++j) sum[0] += std::abs(x[j]);
-  return POISE_SUM(sum);
 }
 
 POISE_TARGET_CLONES("fma")

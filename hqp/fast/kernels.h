@@ -73,6 +73,10 @@ void Rotate(double c, double s, int n, double* x, double* y);
 /// sum_i |x_i|: NaN or infinite if an entry is.
 double AbsoluteSum(const double* x, int n);
 
+/// out_i = AbsoluteSum() of the span of row i, for i < count.
+void SpanAbsoluteSums(const double* rows, int stride, const Span* spans,
+                      int count, double* out);
+
 /// max_i |x_i|, or 0 if n = 0.
 double Largest(const double* x, int n);
 

@@ -20,11 +20,6 @@ double Norm(const double* row, Span span) {
   return std::sqrt(kernels::SquaredNorm(row + span.first, span.size));
 }
 
-double AbsoluteSum(const double* row, Span span) {
-  if (span.size == 1) return std::abs(row[span.first]);
-  return kernels::AbsoluteSum(row + span.first, span.size);
-}
-
 }  // namespace
 
 WorkingSetProblem::WorkingSetProblem(int num_variables,
@@ -116,18 +111,22 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     double zero = 0;  // NaN if a number is not finite.
     bool in_order = true;
+    kernels::SpanAbsoluteSums(B.data(), n_, hierarchy.B_span(level),
+                              hierarchy.num_equalities(level),
+                              B_norm_[level].data());
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
-      norm = AbsoluteSum(B.data() + i * n_, hierarchy.B_span(level)[i]);
       work_.num_entries += hierarchy.B_span(level)[i].size;
       zero += (norm + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
       if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
         norm = 0;
     }
+    kernels::SpanAbsoluteSums(C.data(), n_, hierarchy.C_span(level),
+                              hierarchy.num_inequalities(level),
+                              norm_.data() + norm_begin_[level]);
     for (int i = 0; i < C.rows(); ++i) {
       double& norm = norm_[norm_begin_[level] + i];
-      norm = AbsoluteSum(C.data() + i * n_, hierarchy.C_span(level)[i]);
       work_.num_entries += hierarchy.C_span(level)[i].size;
       zero += norm * 0;
       if (norm * norm < tolerances::kZeroRow) norm = 0;
