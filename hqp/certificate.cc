@@ -105,8 +105,8 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
   for (int level = 0; level < levels; ++level) {
     Certificate certificate = solution->certificate;
     JudgeLevel(hierarchy, level, *solution, &certificate);
-    const bool is_certified = level != solution->failed_level &&
-                              certificate.worst() <= kCertified;
+    const bool is_certified =
+        level != solution->failed_level && certificate.worst() <= kCertified;
     if (is_certified) {
       FindGap(hierarchy, level, *solution);
       solution->certificate = certificate;

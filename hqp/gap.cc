@@ -211,8 +211,8 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
   const LevelSolution& of = solution.levels[level];
   const auto sharpen = [&](const Eigen::VectorXd* p) {
     if (of_slacks <= sharp_enough) return;
-    of_slacks = std::min(of_slacks,
-                         GainOfSlacks(hierarchy, level, above, p, solution));
+    of_slacks =
+        std::min(of_slacks, GainOfSlacks(hierarchy, level, above, p, solution));
   };
   sharpen(nullptr);
   if (of.traded_level == above) sharpen(&of.trade_off);

@@ -61,7 +61,8 @@ typedef std::uint64_t Word __attribute__((may_alias));
 // Adds the bits of n entries to `bits`.
 POISE_INLINE void AddBits(const double* x, int n, FourWords* bits) {
   if (n < 4) {
-    for (int j = 0; j < n; ++j) (*bits)[0] |= reinterpret_cast<const Word*>(x)[j];
+    for (int j = 0; j < n; ++j)
+      (*bits)[0] |= reinterpret_cast<const Word*>(x)[j];
     return;
   }
   for (int j = 0; j < n - 4; j += 4) {

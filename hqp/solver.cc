@@ -120,8 +120,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   if (budget->is_spent()) {
     const bool goes_back =
         starts_over && search_.IsBetter(hierarchy, best_y_, search_.y());
-    if (goes_back || budget->iterations() == 0) {
-      if (goes_back) RecallSearch();
+    if (goes_back) RecallSearch();
+    if (budget->iterations() == 0) {
       problem_.Plan(hierarchy, hierarchy.num_levels());
       problem_.SolveLeading(hierarchy, side_);
     }

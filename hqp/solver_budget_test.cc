@@ -565,6 +565,36 @@ TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
   EXPECT_GT(cut_off, 100);
 }
 
+// The last iteration ends at 1.1 times the limit at the latest, unless it is one of the first
+// two. What follows takes less than the first two iterations and what follows them.
+TEST(SolverBudget, EndsSoonAfterItsLimit) {
+  constexpr double kLimit = 100e-6;
+  RandomHierarchyOptions options;
+  options.scaled = 0;
+  options.max_variables = 40;
+  options.max_levels = 5;
+  options.max_equalities = 15;
+  options.max_inequalities = 40;
+  int cut_off = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    HierarchyCase drawn = MakeRandomHierarchy(seed, options);
+    const int n = drawn.hierarchy.num_variables();
+    Solver two_iterations(n, drawn.capacity), solver(n, drawn.capacity);
+    Solution solution(n, drawn.capacity);
+    solver.max_modelled_seconds = kLimit;
+    for (int tick = 0; tick < 5; ++tick) {
+      two_iterations.Forget();
+      two_iterations.max_iterations = 2;
+      (void)two_iterations.Solve(drawn.hierarchy, &solution);
+      cut_off += solver.Solve(drawn.hierarchy, &solution) != Status::kOptimal;
+      EXPECT_LE(solver.modelled_seconds(),
+                1.1 * kLimit + two_iterations.modelled_seconds());
+    }
+  }
+  EXPECT_GT(cut_off, 50);
+}
+
 // If the iterations end before the search has begun, a limit of time that is not
 // reached changes nothing, neither the levels that are certified nor multipliers.
 TEST(SolverBudget, IsTheSameAtTheStartWithALimitOfTime) {

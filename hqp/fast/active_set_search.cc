@@ -56,7 +56,7 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
     }
     if (!budget->Take(limit, problem->work())) return false;
     problem->UseAllLeading();
-    problem->Solve(hierarchy, *side);
+    if (!problem->SolveWithin(hierarchy, *side, budget)) return false;
   } else {
     problem->Start(hierarchy, *side, &y_);
     problem->SolveDiagonal();
@@ -134,15 +134,17 @@ bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
       is_free = false;
       ++iterations;
       problem->UseLeading(used);
-      problem->SolveLeading(hierarchy, *side);
+      if (!problem->SolveLeadingWithin(hierarchy, *side, budget)) return false;
       problem->Approach(y_);
     } while (Iterate(hierarchy, used - 1, problem, side));
     is_free = iterations == 1;
   }
   problem->SolveDiagonal();
   while (Iterate(hierarchy, problem->num_levels(), problem, side)) {
-    if (!budget->Take(limit, problem->work())) return false;
-    problem->Solve(hierarchy, *side);
+    if (!budget->Take(limit, problem->work()) ||
+        !problem->SolveWithin(hierarchy, *side, budget)) {
+      return false;
+    }
   }
   return true;
 }

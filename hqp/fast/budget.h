@@ -1,8 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 namespace poise {
 
@@ -23,11 +25,14 @@ struct Work {
   int num_entries = 0;
   /// Inequalities of the working set that was solved last, of the levels in use.
   int num_active = 0;
-  /// Sum of num_active over all working sets that were solved with all leading levels.
+  /// Sum of num_active over all working sets.
   std::int64_t sum_active = 0;
   /// Working sets that were solved with all leading levels, and with some of them.
   int num_solved = 0, num_partly_solved = 0;
 };
+
+/// Modelled time [s] of a multiply-add.
+inline constexpr double kSecondsPerMultiplyAdd = 0.164e-9;
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The time covers the check of the input, refinement,
@@ -37,20 +42,23 @@ struct Work {
 /// median, 90 % between 0.76 and 1.17, and 99 % less than 1.24
 /// (docs/notebook/2026-11-29-kernels.md).
 inline double ModelledSeconds(const Work& work) {
-  constexpr double kPerSolve = 3.3e-6, kPerEntry = 6.0e-9, kPerActive = 0.67e-6;
-  constexpr double kPerWorkingSet = 5.5e-6, kPerPartOfOne = 4.0e-6;
-  constexpr double kPerWorkingSetAndActive = 0.104e-6;
-  constexpr double kPerMultiplyAdd = 0.162e-9;
+  constexpr double kPerSolve = 2.2e-6, kPerEntry = 5.4e-9, kPerActive = 0.62e-6;
+  constexpr double kPerWorkingSet = 5.2e-6, kPerPartOfOne = 2.2e-6;
+  constexpr double kPerWorkingSetAndActive = 0.105e-6;
   return kPerSolve + kPerEntry * work.num_entries +
          kPerActive * work.num_active + kPerWorkingSet * work.num_solved +
          kPerPartOfOne * work.num_partly_solved +
          kPerWorkingSetAndActive * static_cast<double>(work.sum_active) +
-         kPerMultiplyAdd * static_cast<double>(work.multiply_adds);
+         kSecondsPerMultiplyAdd * static_cast<double>(work.multiply_adds);
 }
 
 /// The budget of one solve.
 class Budget {
  public:
+  /// Nearly all iterations that begin in time end before this multiple of the limit. The
+  /// others, of robots that fall, would take up to a half of it longer.
+  static constexpr double kMost = 1.1;
+
   Budget(const BudgetLimits& limits, const std::function<double()>* now)
       : limits_(limits),
         now_(limits.seconds > 0 && *now ? now : nullptr),
@@ -70,7 +78,28 @@ class Budget {
   }
   bool Take(const Work& work) { return Take(limits_.iterations + 1, work); }
 
-  /// Returns whether Take() has failed for another reason than `limit`.
+  /// Returns how many multiply-adds the next iteration may take after this work, so that
+  /// it does not end later than kMost times the limit of time. There is no such limit if the
+  /// time is over already: Take() has then allowed the iteration, so that the search
+  /// advances.
+  std::int64_t MultiplyAddsLeft(const Work& work) const {
+    if (!has_time_limit() || IsLate(work)) {
+      return std::numeric_limits<std::int64_t>::max();
+    }
+    double left = std::numeric_limits<double>::infinity();
+    if (limits_.modelled_seconds > 0) {
+      left = kMost * limits_.modelled_seconds - ModelledSeconds(work);
+    }
+    if (now_ != nullptr)
+      left = std::min(left, kMost * limits_.seconds - Elapsed());
+    return static_cast<std::int64_t>(left / kSecondsPerMultiplyAdd);
+  }
+
+  /// Ends the budget: an iteration has been interrupted.
+  void Spend() { is_spent_ = true; }
+
+  /// Returns whether the budget has ended, by Spend() or because Take() has failed for
+  /// another reason than `limit`.
   bool is_spent() const { return is_spent_; }
   /// Returns whether the time is limited, modelled or measured.
   bool has_time_limit() const {
@@ -83,8 +112,9 @@ class Budget {
   bool IsLate(const Work& work) const {
     return (limits_.modelled_seconds > 0 &&
             ModelledSeconds(work) > limits_.modelled_seconds) ||
-           (now_ != nullptr && (*now_)() - start_ > limits_.seconds);
+           (now_ != nullptr && Elapsed() > limits_.seconds);
   }
+  double Elapsed() const { return (*now_)() - start_; }
 
   BudgetLimits limits_;
   int iterations_ = 0;

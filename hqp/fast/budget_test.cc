@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+
 namespace poise {
 namespace {
 
@@ -80,6 +83,53 @@ TEST(Budget, KnowsWhetherItsTimeIsLimited) {
   EXPECT_FALSE(Budget({9, 0, 1}, &no_clock).has_time_limit());
   EXPECT_TRUE(Budget({9, 0, 1}, &now).has_time_limit());
   EXPECT_TRUE(Budget({9, 1}, &no_clock).has_time_limit());
+}
+
+constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+
+// With all of them, the modelled time is kMost times the limit, to one multiply-add.
+TEST(Budget, LeavesTheMultiplyAddsUntilItsMost) {
+  Work work = {1000, 7, 3, 20, 2, 1};
+  const double limit = 2 * ModelledSeconds(work);
+  const std::int64_t left =
+      Budget({9, limit}, &no_clock).MultiplyAddsLeft(work);
+  work.multiply_adds += left;
+  EXPECT_LE(ModelledSeconds(work), (1 + 1e-12) * Budget::kMost * limit);
+  work.multiply_adds += 2;
+  EXPECT_GT(ModelledSeconds(work), Budget::kMost * limit);
+}
+
+TEST(Budget, LeavesTheMultiplyAddsOfTheTimeByTheClock) {
+  double time = 5;
+  const std::function<double()> now = [&] { return time; };
+  const Budget budget({9, 0, 2}, &now), both({9, 1e-3, 2}, &now);
+  time = 6;
+  const double seconds = Budget::kMost * 2 - 1;
+  EXPECT_NEAR(
+      static_cast<double>(budget.MultiplyAddsLeft({})) * kSecondsPerMultiplyAdd,
+      seconds, kSecondsPerMultiplyAdd);
+  // The earlier limit holds.
+  EXPECT_EQ(both.MultiplyAddsLeft({}),
+            Budget({9, 1e-3}, &no_clock).MultiplyAddsLeft({}));
+}
+
+// An iteration that begins late may take any time: the search must advance.
+TEST(Budget, LeavesAllMultiplyAddsWithoutATimeLimitOrAfterIt) {
+  EXPECT_EQ(Budget({9}, &no_clock).MultiplyAddsLeft({}), kUnlimited);
+  const Work work = {1000000};
+  const double limit = ModelledSeconds(work);
+  EXPECT_LT(Budget({9, limit}, &no_clock).MultiplyAddsLeft(work), kUnlimited);
+  EXPECT_EQ(Budget({9, limit / 2}, &no_clock).MultiplyAddsLeft(work),
+            kUnlimited);
+}
+
+TEST(Budget, AllowsNoIterationOnceItIsSpent) {
+  Budget budget({9}, &no_clock);
+  EXPECT_TRUE(budget.Take({}));
+  budget.Spend();
+  EXPECT_TRUE(budget.is_spent());
+  EXPECT_FALSE(budget.Take({}));
+  EXPECT_EQ(budget.iterations(), 1);
 }
 
 TEST(ModelledSeconds, GrowsWithTheWork) {

@@ -296,9 +296,7 @@ void DotWithSize(const double* row, const double* x, int n, double* dot,
 }
 
 POISE_TARGET_CLONES("fma")
-double AbsoluteSum(const double* x, int n) {
-  return SumOfSizes(x, n);
-}
+double AbsoluteSum(const double* x, int n) { return SumOfSizes(x, n); }
 
 POISE_TARGET_CLONES("fma")
 void SpanAbsoluteSums(const double* rows, int stride, const Span* spans,

@@ -95,25 +95,36 @@ TEST_F(KernelsTest, IndicesChooseRows) {
   });
 }
 
-// Entries outside a row's span do not count, whatever they are.
-TEST_F(KernelsTest, SpanDotsSumTheProductsOfTheSpan) {
-  ForAllSizes([&](int rows, int n) {
-    std::vector<Span> spans;
-    std::vector<double> only_spans = rows_;
-    for (int i = 0; i < rows; ++i) {
-      const int first = i % (n + 1);
-      const int size = (n - first) / (1 + i % 3);
-      spans.push_back({first, size});
-      for (int j = 0; j < n; ++j) {
-        if (j < first || j >= first + size) only_spans[i * kStride + j] = 0;
+// Entries outside a row's span do not count, whatever they are. Neighbouring rows with the
+// same span share a loop.
+TEST_F(KernelsTest, SpansLimitTheProductsAndSums) {
+  for (const int num_same : {1, 2, 5}) {
+    ForAllSizes([&](int rows, int n) {
+      std::vector<Span> spans;
+      std::vector<double> only_spans = rows_;
+      for (int i = 0; i < rows; ++i) {
+        const int group = i / num_same;
+        const int first = group % (n + 1);
+        const int size = (n - first) / (1 + group % 3);
+        spans.push_back({first, size});
+        for (int j = 0; j < n; ++j) {
+          if (j < first || j >= first + size) only_spans[i * kStride + j] = 0;
+        }
       }
-    }
-    std::vector<double> out(kMaxRows + 1, kUntouched), dots = out;
-    kernels::SpanDots(rows_.data(), kStride, spans.data(), rows, x_.data(),
-                      out.data());
-    kernels::Dots(only_spans.data(), kStride, rows, x_.data(), n, dots.data());
-    EXPECT_EQ(out, dots);
-  });
+      std::vector<double> out(kMaxRows + 1, kUntouched), dots = out, sums = out;
+      kernels::SpanDots(rows_.data(), kStride, spans.data(), rows, x_.data(),
+                        out.data());
+      kernels::Dots(only_spans.data(), kStride, rows, x_.data(), n,
+                    dots.data());
+      EXPECT_EQ(out, dots);
+      kernels::SpanAbsoluteSums(rows_.data(), kStride, spans.data(), rows,
+                                sums.data());
+      for (int i = 0; i < rows; ++i) {
+        EXPECT_EQ(sums[i], kernels::AbsoluteSum(&only_spans[i * kStride], n));
+      }
+      EXPECT_EQ(sums[rows], kUntouched);
+    });
+  }
 }
 
 TEST_F(KernelsTest, SquaredNormIsTheSumOfOddNumbers) {

@@ -116,14 +116,16 @@ void LexicographicFactorization::FactorLevel() {
   level.rank_begin = level.rank_end = rank_;
   if (IsDetermined(level)) {
     level.deficient = level.end_row > level.first_row;
-  } else {
-    FactorRows(&level);
+  } else if (!FactorRows(&level)) {
+    Truncate(num_levels());
+    return;
   }
   SolveLevel(level);
   levels_.push_back(level);
 }
 
-void LexicographicFactorization::FactorRows(Level* level) {
+// Returns false if there is no time for it.
+bool LexicographicFactorization::FactorRows(Level* level) {
   for (int a = level->first_row; a < level->end_row; ++a) ProjectRow(a);
   PivotRows(level);
   const int rows = level->end_row - level->first_row;
@@ -134,6 +136,7 @@ void LexicographicFactorization::FactorRows(Level* level) {
   } else {
     CopyEffective(*level);
   }
+  return !IsLate();
 }
 
 // Each row of a level that is not deficient is an effective row.
@@ -213,7 +216,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
     open_[open++] = a;
     fresh_[a] = rest_[a];  // As last computed, not downdated.
   }
-  while (level->rank_end < n_) {
+  while (level->rank_end < n_ && !IsLate()) {
     const int pivot = TakePivot(&open);
     if (pivot < 0) break;
     const int e = level->rank_end;
@@ -297,7 +300,7 @@ void LexicographicFactorization::Reduce(Level* level) {
     }
     chosen_[a] = false;
   }
-  for (int e = end - 1; e >= begin; --e) {
+  for (int e = end - 1; e >= begin && !IsLate(); --e) {
     // The reflection moves column e of the rows not yet chosen into the row
     // where its entry is largest. Most entries are zero: those of all rows that
     // were orthogonalised before row e. Later columns are zero in these rows.

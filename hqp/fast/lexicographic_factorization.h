@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "poise/hqp/fast/fixed_variables.h"
@@ -71,8 +72,11 @@ class LexicographicFactorization {
   /// Forgets the projections of keys without Recall() since the last call.
   void ForgetUnused() { kept_.KeepUsed(); }
 
-  /// Factors the rows added since the last level; row(a) is overwritten.
+  /// Factors the rows added since the last level; row(a) is overwritten. If
+  /// multiply_adds() exceeds max_multiply_adds() before the end, removes these rows
+  /// instead, and adds no level.
   void FactorLevel();
+  void set_max_multiply_adds(std::int64_t most) { max_multiply_adds_ = most; }
 
   /// Merges the levels before `level`, none of which may be deficient. The
   /// merged level has the number of the last of them, and the others are empty.
@@ -195,7 +199,8 @@ class LexicographicFactorization {
   /// Returns whether the levels before determine y. The level then has no rows of L: its
   /// residuals are computed from y, and its gradient from the rows as they were set.
   bool IsDetermined(const Level& level) const { return level.rank_begin == n_; }
-  void FactorRows(Level* level);
+  bool IsLate() const { return multiply_adds_ > max_multiply_adds_; }
+  bool FactorRows(Level* level);
   void ProjectColumns(const double* y, int rank, double* on_basis);
   void CombineColumns(const double* z, int rank, double* y);
   void CopyEffective(const Level& level);
@@ -236,6 +241,7 @@ class LexicographicFactorization {
   std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
   std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.
   std::int64_t multiply_adds_ = 0;
+  std::int64_t max_multiply_adds_ = std::numeric_limits<std::int64_t>::max();
   ProjectedRows kept_;  ///< Rows with a key, on the merged levels.
   /// By row: key of its projection in kept_, or kNoKey.
   std::vector<int> key_;

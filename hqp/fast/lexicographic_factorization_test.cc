@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "poise/tests/util/lexicographic.h"
 #include "poise/tests/util/stacked_rows.h"
@@ -72,6 +73,42 @@ TEST_P(RandomLexicographicFactorizationTest, AgreesWithSingularValues) {
   }
   EXPECT_EQ(stack_.num_rows(), row);
   EXPECT_EQ(stack_.rank(), optimum_.rank.back());
+}
+
+// A level that takes too many multiply-adds is not added, and its rows are removed. What
+// was factored before stays, and the level can be added later.
+TEST_P(RandomLexicographicFactorizationTest, RemovesALevelThatTakesTooLong) {
+  const int last = num_levels_ - 1;
+  stack_.Truncate(last);
+  const Eigen::MatrixXd before = Basis(stack_, n_);
+  const int rows = stack_.num_rows(), rank = stack_.rank();
+  const std::int64_t start = stack_.multiply_adds();
+  AddLevel(levels_[last], &stack_);
+  const std::int64_t needed = stack_.multiply_adds() - start;
+  int added = 0, removed = 0;
+  for (int part = 0; part <= 8; ++part) {
+    stack_.Truncate(last);
+    const std::int64_t most = stack_.multiply_adds() + part * needed / 8;
+    stack_.set_max_multiply_adds(most);
+    AddLevel(levels_[last], &stack_);
+    if (stack_.num_levels() == num_levels_) {
+      ++added;
+    } else {
+      ++removed;
+      EXPECT_GT(stack_.multiply_adds(), most);
+      EXPECT_EQ(stack_.num_levels(), last);
+      EXPECT_EQ(stack_.num_rows(), rows);
+      EXPECT_EQ(stack_.rank(), rank);
+      EXPECT_EQ(Basis(stack_, n_), before);
+    }
+  }
+  EXPECT_GT(added, 0);
+  // A level that those before determine takes no factorisation.
+  EXPECT_TRUE(removed > 0 || needed == 0 || rank == n_);
+  stack_.Truncate(last);
+  stack_.set_max_multiply_adds(std::numeric_limits<std::int64_t>::max());
+  AddLevel(levels_[last], &stack_);
+  EXPECT_LE((Optimum(stack_, n_) - optimum_.y).norm(), Tolerance());
 }
 
 // For other targets, the same factors give what new factors give.

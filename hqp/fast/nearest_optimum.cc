@@ -44,7 +44,7 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
       return true;
     }
     problem->UseLeading(leading - 1);
-    if (!is_near_known_) near_side_ = *side;
+    near_side_ = *side;
     FitToBounds(hierarchy, &near_side_);
   }
   std::copy(side->begin() + leading - 1, side->end(),
@@ -53,7 +53,7 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
   removals_.Reset(hierarchy);
   if (!FindNearest(hierarchy, limit, budget, !starts_near, problem,
                    &near_side_) ||
-      !budget->Take(limit, problem->work())) {
+      !budget->Take(limit, problem->WorkWith(*side))) {
     Pause(*side);
     *side = near_side_;
     return false;
@@ -74,8 +74,10 @@ bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
   const int num_levels = problem->num_leading();
   center_ = y_;
   for (Change last;;) {
-    if (!budget->Take(limit, problem->work())) return false;
-    problem->SolveLeading(hierarchy, *side);
+    if (!budget->Take(limit, problem->work()) ||
+        !problem->SolveLeadingWithin(hierarchy, *side, budget)) {
+      return false;
+    }
     problem->Approach(center_);
     const Blocking blocking =
         FindBlocking(hierarchy, *problem, num_levels, last, *side);

@@ -109,7 +109,10 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       return false;
     }
     LookAhead(hierarchy, *problem, run, &last, side);
-    problem->Solve(hierarchy, *side);
+    if (!problem->SolveWithin(hierarchy, *side, budget)) {
+      side_ = *side;
+      return false;
+    }
   }
 }
 

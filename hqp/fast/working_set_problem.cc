@@ -219,6 +219,7 @@ void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
   for (int level = 0; level < num_leading_; ++level) {
     if (level >= from_level) {
       FactorLevel(hierarchy, side[level], level, keeps ? key : kNoKey);
+      if (leading_.num_levels() <= level) return;  // Interrupted.
     }
     key += hierarchy.num_equalities(level) + hierarchy.num_inequalities(level);
   }
@@ -303,9 +304,11 @@ bool WorkingSetProblem::AddFixedVariable(const Hierarchy& hierarchy,
 // first deficient one, single rows are removed and appended instead: all rows
 // before the first deficient level are met, so their order does not matter. If
 // rows only go to their other bounds, the levels are only solved again.
-// Returns false if the first level must be factored again.
+// Returns false if the first level must be factored again, and reduces `mergeable` to the
+// number of levels whose rows are known to be independent, if that is known.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
-                               const std::vector<std::vector<Side>>& side) {
+                               const std::vector<std::vector<Side>>& side,
+                               int* mergeable) {
   const int factored = leading_.num_levels();
   int met = NumMet(), same = 0;
   while (same < factored && AreSame(side[same], factored_[same])) ++same;
@@ -318,9 +321,10 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
     ChangeSides(hierarchy, side, same, met);
     return true;
   }
-  // More updates than this take longer than another factorisation.
-  const int most = (leading_.rank(met - 1) - leading_.variables().size()) / 2;
-  if (NumChanges(side, met) > most) return false;
+  if (IsFactoringFaster(hierarchy, side, met, leading_.rank(met - 1),
+                        NumChanges(side, met))) {
+    return false;
+  }
   leading_.Merge(met);
   for (int a = leading_.num_rows() - 1; a >= 0; --a) {
     const Row& row = rows_[a];
@@ -335,10 +339,10 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
     factored_[row.level][row.index] = Side::kNone;
     RemoveRow(a);
   }
-  for (int level = 0; level < met; ++level) {
-    if (!AppendRows(hierarchy, side, level, &met)) met = level;
+  if (!AppendAll(hierarchy, side, &met)) {
+    *mergeable = std::min(*mergeable, met);
+    return false;
   }
-  if (met == 0) return false;
   leading_.SolveLast();
   FactorFrom(hierarchy, side, met, true);
   leading_.ForgetUnused();
@@ -391,26 +395,53 @@ int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
   return changes;
 }
 
-// Appends the new rows of a level to the first `met` levels, which are merged.
-// If a row depends on others, removes the later levels, and sets `met`. Returns
-// false if it depends on this level and those above. This level is then removed
-// as well.
-bool WorkingSetProblem::AppendRows(const Hierarchy& hierarchy,
-                                   const std::vector<std::vector<Side>>& side,
-                                   int level, int* met) {
-  for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
-    if (side[level][i] == factored_[level][i] || norm(level, i) == 0) {
-      continue;
-    }
-    if (!AppendInequality(hierarchy, level, i, side[level][i])) {
-      RemoveLevels(level + 1);
-      *met = level + 1;
-      if (!AppendInequality(hierarchy, level, i, side[level][i])) {
-        RemoveLevels(level);
-        return false;
+// Returns whether factoring the first `met` levels for a working set takes less work than
+// removing `changes` rows from merged levels of this rank, or appending them. A change
+// takes about one rotation for two of the rows that fix no variable, and a rotation takes
+// four multiply-adds a column. The factorisation takes two for each pair of such rows.
+bool WorkingSetProblem::IsFactoringFaster(
+    const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
+    int met, int rank, int changes) const {
+  const FixedVariables& variables = leading_.variables();
+  const int rows = rank - variables.size();
+  if (changes <= rows / 2) return false;  // Half of these rows stay.
+  int rows_after = 0, columns_after = n_;
+  for (int level = 0; level < met; ++level) {
+    rows_after += hierarchy.num_equalities(level);
+    const Span* span = hierarchy.C_span(level);
+    for (int i = 0, end = hierarchy.num_inequalities(level); i < end; ++i) {
+      if (side[level][i] == Side::kNone) continue;
+      if (span[i].size == 1) {
+        --columns_after;
+      } else {
+        ++rows_after;
       }
     }
-    factored_[level][i] = side[level][i];
+  }
+  const double of_changes = 2.0 * changes * std::max(rows, rows_after) *
+                            std::max(variables.num_free(), columns_after);
+  return of_changes > 1.0 * rows_after * rows_after * columns_after;
+}
+
+// Appends the new rows of the first `met` levels, which are merged. If a row depends on
+// others, removes the levels that cannot be merged, and reduces `met`. Returns false if the
+// remaining levels must be factored again.
+bool WorkingSetProblem::AppendAll(const Hierarchy& hierarchy,
+                                  const std::vector<std::vector<Side>>& side,
+                                  int* met) {
+  for (int level = 0; level < *met; ++level) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
+      if (side[level][i] == factored_[level][i] || norm(level, i) == 0) {
+        continue;
+      }
+      while (!AppendInequality(hierarchy, level, i, side[level][i])) {
+        // It depends on rows of this level and those before, or also of later ones.
+        *met = *met > level + 1 ? level + 1 : level;
+        if (*met == 0 || !RemoveLevels(hierarchy, side, *met)) return false;
+        if (*met == level) return true;
+      }
+      factored_[level][i] = side[level][i];
+    }
   }
   return true;
 }
@@ -428,12 +459,23 @@ bool WorkingSetProblem::AppendInequality(const Hierarchy& hierarchy, int level,
   return leading_.AppendFixedVariable(variable, from[variable] / row.norm);
 }
 
-// Removes the rows of `level` and of later levels from the merged levels.
-void WorkingSetProblem::RemoveLevels(int level) {
-  for (int a = leading_.num_rows() - 1; a >= 0; --a) {
-    if (rows_[a].level >= level) RemoveRow(a);
+// Removes the rows of `level` and of later levels from the merged levels. Returns false if
+// the others are factored again in less time.
+bool WorkingSetProblem::RemoveLevels(const Hierarchy& hierarchy,
+                                     const std::vector<std::vector<Side>>& side,
+                                     int level) {
+  const int rows = leading_.num_rows();
+  const auto is_removed = [&](const Row& row) { return row.level >= level; };
+  const auto changes = static_cast<int>(
+      std::count_if(rows_.begin(), rows_.begin() + rows, is_removed));
+  if (IsFactoringFaster(hierarchy, side, level, leading_.rank(), changes)) {
+    return false;
+  }
+  for (int a = rows - 1; a >= 0; --a) {
+    if (is_removed(rows_[a])) RemoveRow(a);
   }
   leading_.Unmerge(level);
+  return true;
 }
 
 void WorkingSetProblem::RemoveRow(int a) {
@@ -443,9 +485,9 @@ void WorkingSetProblem::RemoveRow(int a) {
 
 void WorkingSetProblem::SolveLeading(
     const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side) {
-  if (!is_factored_ || !Update(hierarchy, side)) {
-    // If a level depends on those before, these may still be merged.
-    int met = std::min(num_met_, num_leading_);
+  // If a level depends on those before, these may still be merged.
+  int met = std::min(num_met_, num_leading_);
+  if (!is_factored_ || !Update(hierarchy, side, &met)) {
     while (met > 0 && !FactorMerged(hierarchy, side, met)) --met;
     if (met == 0) FactorFrom(hierarchy, side, 0, false);
   }
@@ -454,6 +496,21 @@ void WorkingSetProblem::SolveLeading(
   is_factored_ = true;
   is_diagonal_solved_ = false;
   CountWork();
+}
+
+bool WorkingSetProblem::SolveLeadingWithin(
+    const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
+    Budget* budget) {
+  constexpr auto kUnlimited = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t left = budget->MultiplyAddsLeft(work());
+  if (left < kUnlimited) {
+    leading_.set_max_multiply_adds(leading_.multiply_adds() + left);
+  }
+  SolveLeading(hierarchy, side);
+  leading_.set_max_multiply_adds(kUnlimited);
+  if (leading_.num_levels() == num_leading_) return true;
+  budget->Spend();
+  return false;
 }
 
 // Counts the working set that has been solved, and its inequalities.
@@ -466,8 +523,19 @@ void WorkingSetProblem::CountWork() {
     ++work_.num_partly_solved;
   } else {
     ++work_.num_solved;
-    work_.sum_active += work_.num_active;
   }
+  work_.sum_active += work_.num_active;
+}
+
+Work WorkingSetProblem::WorkWith(
+    const std::vector<std::vector<Side>>& side) const {
+  Work work = this->work();
+  work.num_active = 0;
+  for (const std::vector<Side>& level : side) {
+    work.num_active += static_cast<int>(
+        level.size() - std::count(level.begin(), level.end(), Side::kNone));
+  }
+  return work;
 }
 
 // Returns the number of factored levels before the first deficient one.

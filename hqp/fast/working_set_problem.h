@@ -87,6 +87,15 @@ class WorkingSetProblem {
     SolveDiagonal();
   }
 
+  /// Solve() with SolveLeadingWithin(). Returns false if it is interrupted.
+  [[nodiscard]] bool SolveWithin(const Hierarchy& hierarchy,
+                                 const std::vector<std::vector<Side>>& side,
+                                 Budget* budget) {
+    if (!SolveLeadingWithin(hierarchy, side, budget)) return false;
+    SolveDiagonal();
+    return true;
+  }
+
   /// SolveLeading() after Plan(), and MoveToFirstLevels() for y, which is the start of
   /// a search.
   void Start(const Hierarchy& hierarchy,
@@ -96,6 +105,12 @@ class WorkingSetProblem {
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
                     const std::vector<std::vector<Side>>& side);
+  /// SolveLeading(), which is interrupted where the budget has no multiply-adds left. The
+  /// levels that have been factored until then stay. Returns false in this case, and spends
+  /// the budget.
+  [[nodiscard]] bool SolveLeadingWithin(
+      const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
+      Budget* budget);
   void SolveDiagonal() {
     diagonal_.Solve(leading_, y_.data());
     is_diagonal_solved_ = true;
@@ -196,6 +211,10 @@ class WorkingSetProblem {
     return work;
   }
 
+  /// Returns work(), but with the inequalities of `side`, which are solved next: the time
+  /// after the search depends on their number.
+  Work WorkWith(const std::vector<std::vector<Side>>& side) const;
+
   /// Returns whether no leading level that has been solved is deficient.
   bool meets_leading() const { return NumMet() == leading_.num_levels(); }
   int num_levels() const { return num_levels_; }
@@ -248,16 +267,19 @@ class WorkingSetProblem {
   void FactorLevel(const Hierarchy& hierarchy, const std::vector<Side>& side,
                    int level, int first_key);
   bool Update(const Hierarchy& hierarchy,
-              const std::vector<std::vector<Side>>& side);
+              const std::vector<std::vector<Side>>& side, int* mergeable);
   void SetSide(const Hierarchy& hierarchy, int a, Side side);
   void ChangeSides(const Hierarchy& hierarchy,
                    const std::vector<std::vector<Side>>& side, int from,
                    int met);
   int NumChanges(const std::vector<std::vector<Side>>& side, int met) const;
-  bool AppendRows(const Hierarchy& hierarchy,
-                  const std::vector<std::vector<Side>>& side, int level,
-                  int* met);
-  void RemoveLevels(int level);
+  bool IsFactoringFaster(const Hierarchy& hierarchy,
+                         const std::vector<std::vector<Side>>& side, int met,
+                         int rank, int changes) const;
+  bool AppendAll(const Hierarchy& hierarchy,
+                 const std::vector<std::vector<Side>>& side, int* met);
+  bool RemoveLevels(const Hierarchy& hierarchy,
+                    const std::vector<std::vector<Side>>& side, int level);
   void MoveTo(int rank, std::vector<double>* y);
   void RemoveRow(int a);
   void AddToSum(const Hierarchy& hierarchy, int a, double factor,

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "poise/hqp/fast/working_set_problem.h"
@@ -84,7 +86,7 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
 }
 
 // Equalities do not count as active. The counts begin with Read(). The sum is that of all
-// solutions with both levels.
+// solutions.
 TEST_F(WorkingSetProblemReadTest, CountsSolutionsAndActiveInequalities) {
   int failed_level;
   for (int twice = 0; twice < 2; ++twice) {
@@ -106,7 +108,7 @@ TEST_F(WorkingSetProblemReadTest, CountsSolutionsAndActiveInequalities) {
     problem_.UseLeading(1);
     problem_.SolveLeading(hierarchy_, side);
     EXPECT_EQ(problem_.work().num_active, 1);
-    EXPECT_EQ(problem_.work().sum_active, 3 + 1);
+    EXPECT_EQ(problem_.work().sum_active, 3 + 1 + 1);
     EXPECT_EQ(problem_.work().num_solved, 2);
     EXPECT_EQ(problem_.work().num_partly_solved, 1);
   }
@@ -344,6 +346,81 @@ TEST(WorkingSetProblem, ForgetsTheRowsOfAnotherProblem) {
       EXPECT_NEAR(problem.y()[1 - j], 0, Rounding(10, 3));
     }
   }
+}
+
+// Twelve equalities on level 0. Level 1 has a bound of each variable and a row that depends
+// on two of them.
+class ManyChangesTest : public testing::Test {
+ protected:
+  static constexpr int kVariables = 40, kEqualities = 12;
+  using Sides = std::vector<std::vector<Side>>;
+
+  ManyChangesTest() {
+    EqualityBlock equalities = hierarchy_.AddEqualities(0, kEqualities);
+    for (int i = 0; i < kEqualities; ++i) {
+      for (int j = 0; j < kVariables; ++j)
+        equalities.B(i, j) = std::cos(1 + i * (j + 1));
+    }
+    equalities.b.setConstant(1);
+    InequalityBlock rows = hierarchy_.AddInequalities(1, kVariables + 1);
+    rows.C.topRows(kVariables).setIdentity();
+    rows.C(kVariables, 0) = rows.C(kVariables, 1) = 1;
+    rows.upper.setConstant(1);
+  }
+  // Returns a working set of the first bounds, and of the last row if `last`.
+  static Sides First(int bounds, bool last) {
+    Sides sides = {{}, std::vector<Side>(kVariables + 1, Side::kNone)};
+    std::fill_n(sides[1].begin(), bounds, Side::kUpper);
+    if (last) sides[1].back() = Side::kUpper;
+    return sides;
+  }
+  // Solves for `sides`, after `before` if it is given, in `work` multiply-adds. Returns y.
+  std::vector<double> Solve(const Sides* before, const Sides& sides,
+                            std::int64_t* work) const {
+    WorkingSetProblem problem(kVariables, capacity_);
+    int failed_level;
+    EXPECT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy_, 2);
+    if (before != nullptr) problem.Solve(hierarchy_, *before);
+    const std::int64_t start = problem.work().multiply_adds;
+    problem.Solve(hierarchy_, sides);
+    *work = problem.work().multiply_adds - start;
+    return problem.y();
+  }
+  // Expects that the change to `after` takes no more than twice the work of a solution from
+  // the start, with the same result.
+  void ExpectFast(const Sides& before, const Sides& after) const {
+    std::int64_t fresh, update;
+    const std::vector<double> expected = Solve(nullptr, after, &fresh);
+    const std::vector<double> y = Solve(&before, after, &update);
+    EXPECT_LE(update, 2 * fresh);
+    for (int j = 0; j < kVariables; ++j) {
+      EXPECT_NEAR(y[j], expected[j], Rounding(10, kVariables, 1e3));
+    }
+  }
+
+  const std::vector<LevelCapacity> capacity_{{kEqualities, 0},
+                                             {0, kVariables + 1}};
+  Hierarchy hierarchy_{kVariables, capacity_};
+};
+
+TEST_F(ManyChangesTest, FactorsAgainIfManyRowsFixVariables) {
+  ExpectFast(First(2, false), First(26, false));
+  ExpectFast(First(26, false), First(2, false));
+}
+
+// The last row depends on the first two. The rows of its level are then not merged.
+TEST_F(ManyChangesTest, FactorsAgainIfManyRowsAreNotMergedAnyMore) {
+  ExpectFast(First(26, false), First(26, true));
+}
+
+// A few changes take less work than a factorisation.
+TEST_F(ManyChangesTest, UpdatesAFewRows) {
+  const Sides before = First(10, false), after = First(11, false);
+  std::int64_t fresh, update;
+  (void)Solve(nullptr, after, &fresh);
+  (void)Solve(&before, after, &update);
+  EXPECT_LT(2 * update, fresh);
 }
 
 }  // namespace

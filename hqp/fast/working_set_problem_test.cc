@@ -7,6 +7,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 
 #include "poise/hqp/fast/tolerances.h"
 #include "poise/tests/util/lexicographic.h"
@@ -276,6 +278,47 @@ TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsExactAsANewFactorisation) {
   }
   problem_.Refine(hierarchy_);
   Check(MakeSides(5), num_levels_, zero_);
+}
+
+// With a budget that ends in an iteration, the first levels are solved, and the next
+// solution is as if there had been no interruption.
+TEST_P(RandomWorkingSetProblemTest, KeepsTheFirstLevelsIfItIsInterrupted) {
+  const std::function<double()> no_clock;
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, MakeSides(0));
+  const int num_leading = problem_.num_leading();
+  for (int salt = 1; salt < 6; ++salt) {
+    SCOPED_TRACE(salt);
+    const Sides sides = MakeSides(salt);
+    // Enough for this work, and for a part of the next iteration.
+    Budget budget({9, ModelledSeconds(problem_.work())}, &no_clock);
+    const std::int64_t left = budget.MultiplyAddsLeft(problem_.work());
+    const std::int64_t before = problem_.work().multiply_adds;
+    const bool is_solved = problem_.SolveWithin(hierarchy_, sides, &budget);
+    EXPECT_EQ(budget.is_spent(), !is_solved);
+    if (is_solved) {
+      Check(sides, num_levels_, zero_);
+      continue;
+    }
+    EXPECT_GT(problem_.work().multiply_adds - before, left);
+    EXPECT_LT(problem_.leading().num_levels(), num_leading);
+    problem_.Solve(hierarchy_, sides);
+    Check(sides, num_levels_, zero_);
+  }
+}
+
+TEST_P(RandomWorkingSetProblemTest, CountsTheRowsThatAreSolvedNext) {
+  problem_.Plan(hierarchy_, num_levels_);
+  problem_.Solve(hierarchy_, MakeSides(0));
+  Work expected = problem_.work();
+  expected.num_active = 0;
+  const Sides sides = MakeSides(1);
+  for (const std::vector<Side>& level : sides) {
+    for (const Side side : level) expected.num_active += side != Side::kNone;
+  }
+  const Work found = problem_.WorkWith(sides);
+  EXPECT_EQ(found.num_active, expected.num_active);
+  EXPECT_EQ(ModelledSeconds(found), ModelledSeconds(expected));
 }
 
 // The rows of one more level go to their other bounds each time.
