@@ -208,13 +208,13 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
   if (of_slacks <= sharp_enough || std::isinf(norm)) return gain + of_slacks;
   SharpenChanges(hierarchy, above, solution);
   of_slacks = norm * change_[above];
-  const LevelSolution& of = solution.levels[level];
   const auto sharpen = [&](const Eigen::VectorXd* p) {
     if (of_slacks <= sharp_enough) return;
     of_slacks =
         std::min(of_slacks, GainOfSlacks(hierarchy, level, above, p, solution));
   };
   sharpen(nullptr);
+  const LevelSolution& of = solution.levels[level];
   if (of.traded_level == above) sharpen(&of.trade_off);
   return gain + of_slacks;
 }

@@ -120,6 +120,7 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   if (budget->is_spent()) {
     const bool goes_back =
         starts_over && search_.IsBetter(hierarchy, best_y_, search_.y());
+    // To factor the rows of this y again would take longer than the limit allows.
     if (goes_back) RecallSearch();
     if (budget->iterations() == 0) {
       problem_.Plan(hierarchy, hierarchy.num_levels());
@@ -223,7 +224,8 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 
 // Writes the y at which the budget of the search on all levels was spent. The
 // multipliers are those of the rows that were factored last, which may differ from
-// the working set by the last change; levels that were not solved have none.
+// the working set by the last change, or altogether if the search has started over in vain.
+// Levels that were not solved have none.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   problem_.LeaveOutUnsolved();
   problem_.SetSolution(hierarchy, search_.y());

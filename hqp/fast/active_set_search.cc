@@ -167,11 +167,11 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
     if (level < levels) InitializeWorkingSet(hierarchy, level, side);
     bool has_changed = true;
     while (has_changed) {
-      if (!budget->Take(problem->work())) {
+      if (!budget->Take(problem->work()) ||
+          !problem->SolveWithin(hierarchy, *side, budget)) {
         RestoreWorkingSet(side);
         return level;
       }
-      problem->Solve(hierarchy, *side);
       has_changed = Iterate(hierarchy, level, problem, side);
     }
     if (level < levels) FreezeViolated(level, *problem, *side);

@@ -27,7 +27,8 @@ struct Work {
   int num_active = 0;
   /// Sum of num_active over all working sets.
   std::int64_t sum_active = 0;
-  /// Working sets that were solved with all leading levels, and with some of them.
+  /// Working sets that were solved with all leading levels, and with some of them. A working
+  /// set counts also if its factorisation was interrupted.
   int num_solved = 0, num_partly_solved = 0;
 };
 
@@ -37,10 +38,10 @@ inline constexpr double kSecondsPerMultiplyAdd = 0.164e-9;
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The time covers the check of the input, refinement,
 /// multipliers and the certificate. The constants are a fit to 55600 solves of 24
-/// sequences, each the fastest of 15 runs with its rows in the cache. The solver has become
-/// faster since: solves that are modelled with 250 to 350 us take 0.93 of this time in the
-/// median, 90 % between 0.76 and 1.17, and 99 % less than 1.24
-/// (docs/notebook/2026-11-29-kernels.md).
+/// sequences, each the fastest of 24 runs with its rows in the cache, times 1.05: so none of
+/// the solves with 300 us takes more than 400 us. Solves that are modelled with 250 to 350 us
+/// take MEDIAN of this time in the median, 90 % between X and Y, and 99 % less than Z
+/// (docs/notebook/2026-11-30-on-time.md).
 inline double ModelledSeconds(const Work& work) {
   constexpr double kPerSolve = 2.2e-6, kPerEntry = 5.4e-9, kPerActive = 0.62e-6;
   constexpr double kPerWorkingSet = 5.2e-6, kPerPartOfOne = 2.2e-6;
@@ -55,9 +56,11 @@ inline double ModelledSeconds(const Work& work) {
 /// The budget of one solve.
 class Budget {
  public:
-  /// Nearly all iterations that begin in time end before this multiple of the limit. The
-  /// others, of robots that fall, would take up to a half of it longer.
+  /// An iteration is interrupted at this multiple of the limit. Nearly all iterations that
+  /// begin in time end before.
   static constexpr double kMost = 1.1;
+  /// More multiply-adds than any solve takes.
+  static constexpr std::int64_t kUnlimited = 1000000000000000;
 
   Budget(const BudgetLimits& limits, const std::function<double()>* now)
       : limits_(limits),
@@ -66,33 +69,34 @@ class Budget {
 
   /// Uses one iteration, which factors or updates the levels, after this work in this
   /// solve. Returns false if the budget is spent, or if `limit` iterations have been
-  /// used. Limits of time allow two iterations: the first finds the start, and the
-  /// second the direction of a step.
+  /// used. Limits of time allow two iterations even if the time is over: the first finds
+  /// the start, and the second the direction of a step.
   bool Take(int limit, const Work& work) {
     if (iterations_ >= limit) return false;
+    is_late_ = IsLate(work);
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (iterations_ > 1 && IsLate(work));
+                (iterations_ > 1 && is_late_);
     if (is_spent_) return false;
     ++iterations_;
     return true;
   }
   bool Take(const Work& work) { return Take(limits_.iterations + 1, work); }
 
-  /// Returns how many multiply-adds the next iteration may take after this work, so that
-  /// it does not end later than kMost times the limit of time. There is no such limit if the
-  /// time is over already: Take() has then allowed the iteration, so that the search
-  /// advances.
+  /// Returns how many multiply-adds the iteration of the last Take() may use, after this
+  /// work, so that it does not end later than kMost times the limit of time. If the time was
+  /// over before it, this is kUnlimited, so that the search advances.
   std::int64_t MultiplyAddsLeft(const Work& work) const {
-    if (!has_time_limit() || IsLate(work)) {
-      return std::numeric_limits<std::int64_t>::max();
-    }
+    if (is_late_) return kUnlimited;
     double left = std::numeric_limits<double>::infinity();
     if (limits_.modelled_seconds > 0) {
       left = kMost * limits_.modelled_seconds - ModelledSeconds(work);
     }
-    if (now_ != nullptr)
+    if (now_ != nullptr) {
       left = std::min(left, kMost * limits_.seconds - Elapsed());
-    return static_cast<std::int64_t>(left / kSecondsPerMultiplyAdd);
+    }
+    // No number of multiply-adds is larger than kUnlimited, also if the limit is infinite.
+    return static_cast<std::int64_t>(std::min(static_cast<double>(kUnlimited),
+                                              left / kSecondsPerMultiplyAdd));
   }
 
   /// Ends the budget: an iteration has been interrupted.
@@ -119,6 +123,7 @@ class Budget {
   BudgetLimits limits_;
   int iterations_ = 0;
   bool is_spent_ = false;
+  bool is_late_ = false;  ///< Whether the time was over at the last Take().
   const std::function<double()>* now_;
   double start_;
 };

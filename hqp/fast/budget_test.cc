@@ -85,8 +85,6 @@ TEST(Budget, KnowsWhetherItsTimeIsLimited) {
   EXPECT_TRUE(Budget({9, 1}, &no_clock).has_time_limit());
 }
 
-constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
-
 // With all of them, the modelled time is kMost times the limit, to one multiply-add.
 TEST(Budget, LeavesTheMultiplyAddsUntilItsMost) {
   Work work = {1000, 7, 3, 20, 2, 1};
@@ -113,14 +111,35 @@ TEST(Budget, LeavesTheMultiplyAddsOfTheTimeByTheClock) {
             Budget({9, 1e-3}, &no_clock).MultiplyAddsLeft({}));
 }
 
-// An iteration that begins late may take any time: the search must advance.
+// An iteration that begins late may take any time: the search must advance. One that begins
+// in time has a limit, also if the time ends before it asks for its limit.
 TEST(Budget, LeavesAllMultiplyAddsWithoutATimeLimitOrAfterIt) {
+  constexpr std::int64_t kUnlimited = Budget::kUnlimited;
   EXPECT_EQ(Budget({9}, &no_clock).MultiplyAddsLeft({}), kUnlimited);
   const Work work = {1000000};
   const double limit = ModelledSeconds(work);
-  EXPECT_LT(Budget({9, limit}, &no_clock).MultiplyAddsLeft(work), kUnlimited);
-  EXPECT_EQ(Budget({9, limit / 2}, &no_clock).MultiplyAddsLeft(work),
-            kUnlimited);
+  for (const double early : {1.0, 0.99}) {
+    Budget budget({9, early * limit}, &no_clock);
+    EXPECT_TRUE(budget.Take(work));
+    EXPECT_EQ(budget.MultiplyAddsLeft(work) < kUnlimited, early == 1);
+  }
+  double time = 5;
+  const std::function<double()> now = [&] { return time; };
+  Budget by_clock({9, 0, 2}, &now);
+  time = 6.9;
+  EXPECT_TRUE(by_clock.Take({}));
+  time = 7.1;
+  EXPECT_LT(by_clock.MultiplyAddsLeft({}), kUnlimited);
+  EXPECT_GT(by_clock.MultiplyAddsLeft({}), 0);
+}
+
+TEST(Budget, LeavesManyMultiplyAddsInALongTime) {
+  const std::function<double()> now = [] { return 0.0; };
+  for (const double seconds :
+       {1e3, 1e12, std::numeric_limits<double>::infinity()}) {
+    EXPECT_GT(Budget({9, seconds}, &no_clock).MultiplyAddsLeft({}), 1000000000);
+    EXPECT_GT(Budget({9, 0, seconds}, &now).MultiplyAddsLeft({}), 1000000000);
+  }
 }
 
 TEST(Budget, AllowsNoIterationOnceItIsSpent) {

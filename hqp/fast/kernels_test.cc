@@ -103,9 +103,10 @@ TEST_F(KernelsTest, SpansLimitTheProductsAndSums) {
       std::vector<Span> spans;
       std::vector<double> only_spans = rows_;
       for (int i = 0; i < rows; ++i) {
+        // The next group has another first entry, another size, or both.
         const int group = i / num_same;
-        const int first = group % (n + 1);
-        const int size = (n - first) / (1 + group % 3);
+        const int first = (group + 1) / 3 % (n + 1);
+        const int size = (n - first) / (1 + (group / 2) % 3);
         spans.push_back({first, size});
         for (int j = 0; j < n; ++j) {
           if (j < first || j >= first + size) only_spans[i * kStride + j] = 0;

@@ -116,16 +116,18 @@ void LexicographicFactorization::FactorLevel() {
   level.rank_begin = level.rank_end = rank_;
   if (IsDetermined(level)) {
     level.deficient = level.end_row > level.first_row;
-  } else if (!FactorRows(&level)) {
-    Truncate(num_levels());
-    return;
+  } else {
+    FactorRows(&level);
+    if (IsLate()) {
+      Truncate(num_levels());
+      return;
+    }
   }
   SolveLevel(level);
   levels_.push_back(level);
 }
 
-// Returns false if there is no time for it.
-bool LexicographicFactorization::FactorRows(Level* level) {
+void LexicographicFactorization::FactorRows(Level* level) {
   for (int a = level->first_row; a < level->end_row; ++a) ProjectRow(a);
   PivotRows(level);
   const int rows = level->end_row - level->first_row;
@@ -136,7 +138,6 @@ bool LexicographicFactorization::FactorRows(Level* level) {
   } else {
     CopyEffective(*level);
   }
-  return !IsLate();
 }
 
 // Each row of a level that is not deficient is an effective row.

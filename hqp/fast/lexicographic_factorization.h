@@ -73,9 +73,11 @@ class LexicographicFactorization {
   void ForgetUnused() { kept_.KeepUsed(); }
 
   /// Factors the rows added since the last level; row(a) is overwritten. If
-  /// multiply_adds() exceeds max_multiply_adds() before the end, removes these rows
-  /// instead, and adds no level.
+  /// multiply_adds() exceeds set_max_multiply_adds() before the end, this function removes
+  /// the rows and adds no level.
   void FactorLevel();
+  /// Limits multiply_adds() of FactorLevel() and FactorMerged(). They exceed it by the
+  /// projection of the rows, and by one row of Q or one reflection, at most.
   void set_max_multiply_adds(std::int64_t most) { max_multiply_adds_ = most; }
 
   /// Merges the levels before `level`, none of which may be deficient. The
@@ -85,7 +87,7 @@ class LexicographicFactorization {
 
   /// Factors all rows, those of AddFixedVariable() and of AddRow(), as the levels
   /// before `level`, merged. Returns false and removes all rows if the independent
-  /// part of one is below kIndependentPart.
+  /// part of one is below kIndependentPart, or if multiply_adds() exceeds its limit.
   /// pre: no level has been factored.
   [[nodiscard]] bool FactorMerged(int level);
 
@@ -200,7 +202,7 @@ class LexicographicFactorization {
   /// residuals are computed from y, and its gradient from the rows as they were set.
   bool IsDetermined(const Level& level) const { return level.rank_begin == n_; }
   bool IsLate() const { return multiply_adds_ > max_multiply_adds_; }
-  bool FactorRows(Level* level);
+  void FactorRows(Level* level);
   void ProjectColumns(const double* y, int rank, double* on_basis);
   void CombineColumns(const double* z, int rank, double* y);
   void CopyEffective(const Level& level);

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
+#include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/lexicographic_factorization.h"
 #include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/lexicographic.h"
@@ -476,6 +478,37 @@ TEST_F(LexicographicFactorizationTest, DoesNotAllocate) {
     stack.SolveLast();
   }
   EXPECT_EQ(count.allocations(), 0);
+}
+
+// 60 rows of rank 50. If their level takes too many multiply-adds, it ends after one more
+// row of Q or reflection: after fewer than three products of all rows, and of all of Q, with
+// one row.
+TEST(LexicographicFactorization, RemovesALevelSoonIfItTakesTooLong) {
+  static constexpr int kVariables = 60, kRank = 50;
+  const auto factor = [](std::int64_t most) {
+    LexicographicFactorization stack(kVariables, kVariables, 1);
+    stack.set_max_multiply_adds(most);
+    for (int i = 0; i < kVariables; ++i) {
+      Eigen::VectorXd row(kVariables);
+      for (int j = 0; j < kVariables; ++j)
+        row[j] = std::cos(1 + (i % kRank) * (j + 1.3));
+      const int a = stack.AddRow(i, 1);
+      stack.SetRow(a, row.data(), 0, kVariables, row.norm());
+    }
+    stack.FactorLevel();
+    EXPECT_EQ(stack.num_levels(), stack.multiply_adds() <= most ? 1 : 0);
+    return stack.multiply_adds();
+  };
+  const std::int64_t needed = factor(std::numeric_limits<std::int64_t>::max());
+  const std::int64_t step =
+      3 * 2 * kVariables * (kVariables + kernels::kRowOverhead);
+  ASSERT_GT(needed, 10 * step);
+  for (int part = 0; part < 20; ++part) {
+    const std::int64_t most = part * needed / 20;
+    const std::int64_t used = factor(most);
+    EXPECT_GT(used, most) << part;
+    EXPECT_LE(used, most + step) << part;
+  }
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
   if (starts_near) {
     problem->UseLeading(leading - 1);
     FitToBounds(hierarchy, &near_side_);
+    std::copy(side->begin() + leading - 1, side->end(),
+              near_side_.begin() + leading - 1);
     problem->Start(hierarchy, near_side_, &y_);
     *answer = y_;
   } else {
@@ -45,21 +47,19 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
     }
     problem->UseLeading(leading - 1);
     near_side_ = *side;
-    FitToBounds(hierarchy, &near_side_);
   }
-  std::copy(side->begin() + leading - 1, side->end(),
-            near_side_.begin() + leading - 1);
   skips_near_ = is_near_known_ = true;
   removals_.Reset(hierarchy);
   if (!FindNearest(hierarchy, limit, budget, !starts_near, problem,
                    &near_side_) ||
-      !budget->Take(limit, problem->WorkWith(*side))) {
+      !budget->Take(limit, problem->WorkWith(hierarchy, *side))) {
     Pause(*side);
     *side = near_side_;
     return false;
   }
   *answer = y_;
   problem->UseLeading(leading);
+  // This is not interrupted: the levels that y meets would then have no multipliers.
   problem->SolveLeading(hierarchy, *side);
   return true;
 }

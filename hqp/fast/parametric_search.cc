@@ -14,7 +14,7 @@ namespace poise {
 namespace {
 
 // Most rows without a multiplier that one iteration removes. One iteration must not take
-// long, because a limit of time is only checked between two of them.
+// long: where a limit of time interrupts it, its work is lost.
 constexpr int kMaxRemoved = 4;
 
 // A path is given up after so many iterations of one solve in a row that add and remove rows

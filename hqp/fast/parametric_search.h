@@ -74,7 +74,8 @@ class ParametricSearch {
   /// Returns whether the optimum has been reached: it is y(), and the solution of
   /// `problem`. If not, the budget, or `limit` iterations of it, did not suffice, or the path
   /// was given up, because rows were added and removed in turn.
-  /// `problem` is then not solved for the last change of `side`.
+  /// `problem` is then not solved for the last change of `side`, or for its first levels only
+  /// if this iteration was interrupted.
   /// pre: is_known().
   [[nodiscard]] bool Follow(const Hierarchy& hierarchy, int limit,
                             Budget* budget, WorkingSetProblem* problem,
@@ -84,9 +85,9 @@ class ParametricSearch {
   /// WorkingSetProblem::Start() does with y(). Then moves y() to a point that
   /// meets all leading levels but the last, and stores it in `answer`: it remains if the
   /// path is cut off. It is the optimum of these levels and of `side` that is closest to
-  /// y(), or, if that violates a bound, an optimum near y() that is found from the
-  /// working set of the last call. A path that is continued begins with the latter, because
-  /// its `side` is far from y(). The multipliers of `side` are not checked.
+  /// y(), or, if that violates a bound, an optimum near y() that is found from `side`. A path
+  /// that is continued begins with the working set of the last call, because its `side` is
+  /// far from y(). The multipliers of `side` are not checked.
   /// Returns true if the point has been reached. Returns true without a move if there are
   /// fewer than two leading levels, or if the last call spent its budget. Returns false if
   /// the budget, or `limit` iterations of it, did not suffice. Then the path is paused,

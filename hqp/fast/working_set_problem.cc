@@ -259,8 +259,8 @@ void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
 }
 
 // Factors the first `met` levels, merged, and then the others. Returns false, without
-// a level that is factored, if no row of the first ones fixes a variable, or if one of
-// their rows depends on others.
+// a level that is factored, if no row of the first ones fixes a variable, if one of
+// their rows depends on others, or if there are no multiply-adds left.
 bool WorkingSetProblem::FactorMerged(const Hierarchy& hierarchy,
                                      const std::vector<std::vector<Side>>& side,
                                      int met) {
@@ -304,8 +304,8 @@ bool WorkingSetProblem::AddFixedVariable(const Hierarchy& hierarchy,
 // first deficient one, single rows are removed and appended instead: all rows
 // before the first deficient level are met, so their order does not matter. If
 // rows only go to their other bounds, the levels are only solved again.
-// Returns false if the first level must be factored again, and reduces `mergeable` to the
-// number of levels whose rows are known to be independent, if that is known.
+// Returns false if the first level must be factored again. If a row has been found to depend
+// on others, this reduces `mergeable`, the largest number of levels that may be merged then.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side,
                                int* mergeable) {
@@ -317,12 +317,13 @@ bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
     return true;
   }
   if (met == 0) return false;
-  if (same < met && NumChanges(side, met) == 0) {
+  const int changes = NumChanges(side, met);
+  if (same < met && changes == 0) {
     ChangeSides(hierarchy, side, same, met);
     return true;
   }
   if (IsFactoringFaster(hierarchy, side, met, leading_.rank(met - 1),
-                        NumChanges(side, met))) {
+                        changes)) {
     return false;
   }
   leading_.Merge(met);
@@ -404,20 +405,20 @@ bool WorkingSetProblem::IsFactoringFaster(
     int met, int rank, int changes) const {
   const FixedVariables& variables = leading_.variables();
   const int rows = rank - variables.size();
-  if (changes <= rows / 2) return false;  // Half of these rows stay.
-  int rows_after = 0, columns_after = n_;
+  if (changes <= rows / 2) return false;  // Few changes are always faster.
+  int rows_after = 0, num_fixed = 0;
   for (int level = 0; level < met; ++level) {
-    rows_after += hierarchy.num_equalities(level);
-    const Span* span = hierarchy.C_span(level);
+    const auto count = [&](Span span) {
+      (span.size == 1 ? num_fixed : rows_after) += 1;
+    };
+    for (int i = 0, end = hierarchy.num_equalities(level); i < end; ++i) {
+      count(hierarchy.B_span(level)[i]);
+    }
     for (int i = 0, end = hierarchy.num_inequalities(level); i < end; ++i) {
-      if (side[level][i] == Side::kNone) continue;
-      if (span[i].size == 1) {
-        --columns_after;
-      } else {
-        ++rows_after;
-      }
+      if (side[level][i] != Side::kNone) count(hierarchy.C_span(level)[i]);
     }
   }
+  const int columns_after = std::max(n_ - num_fixed, 0);
   const double of_changes = 2.0 * changes * std::max(rows, rows_after) *
                             std::max(variables.num_free(), columns_after);
   return of_changes > 1.0 * rows_after * rows_after * columns_after;
@@ -459,8 +460,8 @@ bool WorkingSetProblem::AppendInequality(const Hierarchy& hierarchy, int level,
   return leading_.AppendFixedVariable(variable, from[variable] / row.norm);
 }
 
-// Removes the rows of `level` and of later levels from the merged levels. Returns false if
-// the others are factored again in less time.
+// Removes the rows of `level` and of later levels from the merged levels. Returns false,
+// without a change, if factoring the others again takes less work.
 bool WorkingSetProblem::RemoveLevels(const Hierarchy& hierarchy,
                                      const std::vector<std::vector<Side>>& side,
                                      int level) {
@@ -501,13 +502,10 @@ void WorkingSetProblem::SolveLeading(
 bool WorkingSetProblem::SolveLeadingWithin(
     const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
     Budget* budget) {
-  constexpr auto kUnlimited = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t left = budget->MultiplyAddsLeft(work());
-  if (left < kUnlimited) {
-    leading_.set_max_multiply_adds(leading_.multiply_adds() + left);
-  }
+  leading_.set_max_multiply_adds(leading_.multiply_adds() +
+                                 budget->MultiplyAddsLeft(work()));
   SolveLeading(hierarchy, side);
-  leading_.set_max_multiply_adds(kUnlimited);
+  leading_.set_max_multiply_adds(std::numeric_limits<std::int64_t>::max());
   if (leading_.num_levels() == num_leading_) return true;
   budget->Spend();
   return false;
@@ -528,12 +526,14 @@ void WorkingSetProblem::CountWork() {
 }
 
 Work WorkingSetProblem::WorkWith(
+    const Hierarchy& hierarchy,
     const std::vector<std::vector<Side>>& side) const {
   Work work = this->work();
   work.num_active = 0;
-  for (const std::vector<Side>& level : side) {
-    work.num_active += static_cast<int>(
-        level.size() - std::count(level.begin(), level.end(), Side::kNone));
+  for (int level = 0; level < hierarchy.num_levels(); ++level) {
+    for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
+      work.num_active += side[level][i] != Side::kNone ? 1 : 0;
+    }
   }
   return work;
 }

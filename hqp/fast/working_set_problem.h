@@ -105,9 +105,9 @@ class WorkingSetProblem {
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
                     const std::vector<std::vector<Side>>& side);
-  /// SolveLeading(), which is interrupted where the budget has no multiply-adds left. The
-  /// levels that have been factored until then stay. Returns false in this case, and spends
-  /// the budget.
+  /// SolveLeading(), but the factorisation of levels stops when the budget has no
+  /// multiply-adds left. The levels before stay, and those after them are left out. Returns
+  /// false in this case, and spends the budget. Updates of merged rows do not stop.
   [[nodiscard]] bool SolveLeadingWithin(
       const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
       Budget* budget);
@@ -213,7 +213,8 @@ class WorkingSetProblem {
 
   /// Returns work(), but with the inequalities of `side`, which are solved next: the time
   /// after the search depends on their number.
-  Work WorkWith(const std::vector<std::vector<Side>>& side) const;
+  Work WorkWith(const Hierarchy& hierarchy,
+                const std::vector<std::vector<Side>>& side) const;
 
   /// Returns whether no leading level that has been solved is deficient.
   bool meets_leading() const { return NumMet() == leading_.num_levels(); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "poise/hqp/fast/working_set_problem.h"
@@ -387,13 +388,13 @@ class ManyChangesTest : public testing::Test {
     *work = problem.work().multiply_adds - start;
     return problem.y();
   }
-  // Expects that the change to `after` takes no more than twice the work of a solution from
-  // the start, with the same result.
+  // Expects that the change to `after` takes at most a quarter more work than a solution from
+  // the start, for rows that have been found to depend on others, with the same result.
   void ExpectFast(const Sides& before, const Sides& after) const {
     std::int64_t fresh, update;
     const std::vector<double> expected = Solve(nullptr, after, &fresh);
     const std::vector<double> y = Solve(&before, after, &update);
-    EXPECT_LE(update, 2 * fresh);
+    EXPECT_LE(4 * update, 5 * fresh);
     for (int j = 0; j < kVariables; ++j) {
       EXPECT_NEAR(y[j], expected[j], Rounding(10, kVariables, 1e3));
     }
@@ -412,6 +413,40 @@ TEST_F(ManyChangesTest, FactorsAgainIfManyRowsFixVariables) {
 // The last row depends on the first two. The rows of its level are then not merged.
 TEST_F(ManyChangesTest, FactorsAgainIfManyRowsAreNotMergedAnyMore) {
   ExpectFast(First(26, false), First(26, true));
+}
+
+// The factorisation of level 1 is interrupted, again and again a bit later. The equalities
+// are met then, and the next solution is as without an interruption.
+TEST_F(ManyChangesTest, KeepsTheEqualitiesIfALaterLevelIsInterrupted) {
+  const std::function<double()> no_clock;
+  const Sides sides = First(20, true);
+  std::int64_t needed;
+  const std::vector<double> expected = Solve(nullptr, sides, &needed);
+  int kept = 0;
+  for (int part = 0; part < 10; ++part) {
+    WorkingSetProblem problem(kVariables, capacity_);
+    int failed_level;
+    ASSERT_EQ(problem.Read(hierarchy_, &failed_level), Status::kOptimal);
+    problem.Plan(hierarchy_, 2);
+    Work work = problem.work();
+    work.multiply_adds += part * needed / 10;
+    Budget budget({9, ModelledSeconds(work) / Budget::kMost}, &no_clock);
+    EXPECT_FALSE(problem.SolveWithin(hierarchy_, sides, &budget));
+    EXPECT_TRUE(budget.is_spent());
+    ASSERT_LT(problem.leading().num_levels(), 2);
+    if (problem.leading().num_levels() == 1) {
+      ++kept;
+      problem.Approach(std::vector<double>(kVariables, 0));
+      const auto y = Eigen::VectorXd::Map(problem.y().data(), kVariables);
+      EXPECT_LE((hierarchy_.B(0) * y + hierarchy_.b(0)).norm(),
+                Rounding(10, kVariables, 1e3));
+    }
+    problem.Solve(hierarchy_, sides);
+    for (int j = 0; j < kVariables; ++j) {
+      EXPECT_NEAR(problem.y()[j], expected[j], Rounding(10, kVariables, 1e3));
+    }
+  }
+  EXPECT_GT(kept, 2);
 }
 
 // A few changes take less work than a factorisation.

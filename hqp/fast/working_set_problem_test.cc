@@ -316,7 +316,7 @@ TEST_P(RandomWorkingSetProblemTest, CountsTheRowsThatAreSolvedNext) {
   for (const std::vector<Side>& level : sides) {
     for (const Side side : level) expected.num_active += side != Side::kNone;
   }
-  const Work found = problem_.WorkWith(sides);
+  const Work found = problem_.WorkWith(hierarchy_, sides);
   EXPECT_EQ(found.num_active, expected.num_active);
   EXPECT_EQ(ModelledSeconds(found), ModelledSeconds(expected));
 }
