@@ -37,10 +37,10 @@ inline constexpr double kSecondsPerMultiplyAdd = 0.164e-9;
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The time covers the check of the input, refinement,
-/// multipliers and the certificate. The constants are a fit to 55600 solves of 24
-/// sequences, each the fastest of 24 runs with its rows in the cache, times 1.05: so none of
-/// the solves with 300 us takes more than 400 us. Solves that are modelled with 250 to 350 us
-/// take MEDIAN of this time in the median, 90 % between X and Y, and 99 % less than Z
+/// multipliers and the certificate. The constants are 1.07 times a fit to 55600 solves of 24
+/// sequences, each the fastest of 40 runs with its rows in the cache. Solves that are modelled
+/// with 250 to 350 us take 0.9 of this time in the median, 90 % between 0.7 and 1.1, and 99 %
+/// less than 1.2. With a smaller factor, some solves with 300 us would take more than 400 us
 /// (docs/notebook/2026-11-30-on-time.md).
 inline double ModelledSeconds(const Work& work) {
   constexpr double kPerSolve = 2.2e-6, kPerEntry = 5.4e-9, kPerActive = 0.62e-6;
