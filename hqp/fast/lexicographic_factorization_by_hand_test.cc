@@ -480,9 +480,9 @@ TEST_F(LexicographicFactorizationTest, DoesNotAllocate) {
   EXPECT_EQ(count.allocations(), 0);
 }
 
-// 60 rows of rank 50. If their level takes too many multiply-adds, it ends after one more
-// row of Q or reflection: after fewer than three products of all rows, and of all of Q, with
-// one row.
+// A level has 60 rows of rank 50. If it takes too many multiply-adds, it ends after one more
+// row of Q or reflection. This takes less than three products of all rows, and of Q, with a
+// row.
 TEST(LexicographicFactorization, RemovesALevelSoonIfItTakesTooLong) {
   static constexpr int kVariables = 60, kRank = 50;
   const auto factor = [](std::int64_t most) {

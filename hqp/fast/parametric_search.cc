@@ -103,13 +103,10 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
       y_ = problem->y();
       return true;
     }
-    if (run.alternations >= kMaxAlternations ||
-        !budget->Take(limit, problem->work())) {
-      side_ = *side;
-      return false;
-    }
-    LookAhead(hierarchy, *problem, run, &last, side);
-    if (!problem->SolveWithin(hierarchy, *side, budget)) {
+    const bool goes_on = run.alternations < kMaxAlternations &&
+                         budget->Take(limit, problem->work());
+    if (goes_on) LookAhead(hierarchy, *problem, run, &last, side);
+    if (!goes_on || !problem->SolveWithin(hierarchy, *side, budget)) {
       side_ = *side;
       return false;
     }

@@ -349,7 +349,7 @@ TEST(WorkingSetProblem, ForgetsTheRowsOfAnotherProblem) {
   }
 }
 
-// Twelve equalities on level 0. Level 1 has a bound of each variable and a row that depends
+// Level 0 has twelve equalities. Level 1 has a bound of each variable and a row that depends
 // on two of them.
 class ManyChangesTest : public testing::Test {
  protected:
