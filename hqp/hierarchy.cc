@@ -76,10 +76,13 @@ Hierarchy::Hierarchy(int num_variables,
     throw std::invalid_argument(
         "hierarchy: the total number of rows is negative, must be 0 or more");
   }
-  B_.setZero(total.equalities, num_variables);
+  const auto rows = [&](int count) {
+    return static_cast<size_t>(count) * num_variables;
+  };
+  B_.resize(rows(total.equalities));
   b_.setZero(total.equalities);
   weight_.setOnes(total.equalities);
-  C_.setZero(total.inequalities, num_variables);
+  C_.resize(rows(total.inequalities));
   lower_.setZero(total.inequalities);
   upper_.setZero(total.inequalities);
   B_span_.resize(total.equalities);
@@ -115,13 +118,14 @@ EqualityBlock Hierarchy::AddEqualities(int level, int rows) noexcept {
   assert(level >= 0 && level < used_levels_ && rows >= 0);
   Level& to = levels_[level];
   assert(to.equalities + rows <= to.most.equalities);
-  const Eigen::Index first = to.first_equality + to.equalities;
+  const int first = to.first_equality + to.equalities;
   to.equalities += rows;
-  B_.middleRows(first, rows).setZero();
+  double* B = B_.data() + Index(first);
+  std::fill_n(B, Index(rows), 0);
   b_.segment(first, rows).setZero();
   weight_.segment(first, rows).setOnes();
   std::fill_n(B_span_.begin() + first, rows, Span{0, num_variables_});
-  return {{B_.data() + first * B_.cols(), rows, B_.cols()},
+  return {{B, rows, num_variables_},
           {b_.data() + first, rows},
           {weight_.data() + first, rows},
           B_span_.data() + first};
@@ -131,14 +135,15 @@ InequalityBlock Hierarchy::AddInequalities(int level, int rows) noexcept {
   assert(level >= 0 && level < used_levels_ && rows >= 0);
   Level& to = levels_[level];
   assert(to.inequalities + rows <= to.most.inequalities);
-  const Eigen::Index first = to.first_inequality + to.inequalities;
+  const int first = to.first_inequality + to.inequalities;
   to.inequalities += rows;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  C_.middleRows(first, rows).setZero();
+  double* C = C_.data() + Index(first);
+  std::fill_n(C, Index(rows), 0);
   lower_.segment(first, rows).setConstant(-kInfinity);
   upper_.segment(first, rows).setConstant(kInfinity);
   std::fill_n(C_span_.begin() + first, rows, Span{0, num_variables_});
-  return {{C_.data() + first * C_.cols(), rows, C_.cols()},
+  return {{C, rows, num_variables_},
           {lower_.data() + first, rows},
           {upper_.data() + first, rows},
           C_span_.data() + first};
@@ -149,60 +154,13 @@ void Hierarchy::FindSpans() noexcept {
     const Level& level = levels_[k];
     for (int i = 0; i < level.equalities; ++i) {
       const int row = level.first_equality + i;
-      FindSpan(B_.row(row).data(), num_variables_, &B_span_[row]);
+      FindSpan(B_.data() + Index(row), num_variables_, &B_span_[row]);
     }
     for (int i = 0; i < level.inequalities; ++i) {
       const int row = level.first_inequality + i;
-      FindSpan(C_.row(row).data(), num_variables_, &C_span_[row]);
+      FindSpan(C_.data() + Index(row), num_variables_, &C_span_[row]);
     }
   }
-}
-
-int Hierarchy::num_equalities(int level) const {
-  return levels_[level].equalities;
-}
-
-int Hierarchy::num_inequalities(int level) const {
-  return levels_[level].inequalities;
-}
-
-Eigen::Map<const RowMajorMatrix> Hierarchy::B(int level) const {
-  const Level& of = levels_[level];
-  return {B_.data() + of.first_equality * B_.cols(), of.equalities, B_.cols()};
-}
-
-Eigen::Map<const Eigen::VectorXd> Hierarchy::b(int level) const {
-  const Level& of = levels_[level];
-  return {b_.data() + of.first_equality, of.equalities};
-}
-
-Eigen::Map<const Eigen::VectorXd> Hierarchy::weight(int level) const {
-  const Level& of = levels_[level];
-  return {weight_.data() + of.first_equality, of.equalities};
-}
-
-Eigen::Map<const RowMajorMatrix> Hierarchy::C(int level) const {
-  const Level& of = levels_[level];
-  return {C_.data() + of.first_inequality * C_.cols(), of.inequalities,
-          C_.cols()};
-}
-
-Eigen::Map<const Eigen::VectorXd> Hierarchy::lower(int level) const {
-  const Level& of = levels_[level];
-  return {lower_.data() + of.first_inequality, of.inequalities};
-}
-
-Eigen::Map<const Eigen::VectorXd> Hierarchy::upper(int level) const {
-  const Level& of = levels_[level];
-  return {upper_.data() + of.first_inequality, of.inequalities};
-}
-
-const Span* Hierarchy::B_span(int level) const {
-  return B_span_.data() + levels_[level].first_equality;
-}
-
-const Span* Hierarchy::C_span(int level) const {
-  return C_span_.data() + levels_[level].first_inequality;
 }
 
 }  // namespace poise

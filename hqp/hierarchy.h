@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "poise/hqp/aligned_doubles.h"
 #include "poise/math/eigen_alignment.h"
 
 namespace poise {
@@ -96,19 +97,43 @@ class Hierarchy {
   /// no answer is certified.
   void FindSpans() noexcept;
 
-  int num_equalities(int level) const;
-  int num_inequalities(int level) const;
+  int num_equalities(int level) const { return levels_[level].equalities; }
+  int num_inequalities(int level) const { return levels_[level].inequalities; }
 
   /// Returns the rows of a level.
-  Eigen::Map<const RowMajorMatrix> B(int level) const;
-  Eigen::Map<const Eigen::VectorXd> b(int level) const;
-  Eigen::Map<const Eigen::VectorXd> weight(int level) const;
-  Eigen::Map<const RowMajorMatrix> C(int level) const;
-  Eigen::Map<const Eigen::VectorXd> lower(int level) const;
-  Eigen::Map<const Eigen::VectorXd> upper(int level) const;
+  Eigen::Map<const RowMajorMatrix> B(int level) const {
+    const Level& of = levels_[level];
+    return {B_.data() + Index(of.first_equality), of.equalities,
+            num_variables_};
+  }
+  Eigen::Map<const Eigen::VectorXd> b(int level) const {
+    const Level& of = levels_[level];
+    return {b_.data() + of.first_equality, of.equalities};
+  }
+  Eigen::Map<const Eigen::VectorXd> weight(int level) const {
+    const Level& of = levels_[level];
+    return {weight_.data() + of.first_equality, of.equalities};
+  }
+  Eigen::Map<const RowMajorMatrix> C(int level) const {
+    const Level& of = levels_[level];
+    return {C_.data() + Index(of.first_inequality), of.inequalities,
+            num_variables_};
+  }
+  Eigen::Map<const Eigen::VectorXd> lower(int level) const {
+    const Level& of = levels_[level];
+    return {lower_.data() + of.first_inequality, of.inequalities};
+  }
+  Eigen::Map<const Eigen::VectorXd> upper(int level) const {
+    const Level& of = levels_[level];
+    return {upper_.data() + of.first_inequality, of.inequalities};
+  }
   /// Returns the spans of the rows of B and C: an array by row of the level.
-  const Span* B_span(int level) const;
-  const Span* C_span(int level) const;
+  const Span* B_span(int level) const {
+    return B_span_.data() + levels_[level].first_equality;
+  }
+  const Span* C_span(int level) const {
+    return C_span_.data() + levels_[level].first_inequality;
+  }
 
  private:
   struct Level {
@@ -116,12 +141,17 @@ class Hierarchy {
     int equalities = 0, inequalities = 0;
     LevelCapacity most;  ///< See Clear().
   };
+  /// Index of the first entry of a row in B_ and C_.
+  std::size_t Index(int row) const {
+    return static_cast<std::size_t>(row) * num_variables_;
+  }
+
   int num_variables_;
   std::vector<LevelCapacity> capacity_;
   int used_levels_ = 0;
   std::vector<Level> levels_;
   /// The rows of all levels, one level after the other.
-  RowMajorMatrix B_, C_;
+  AlignedDoubles B_, C_;
   Eigen::VectorXd b_, weight_, lower_, upper_;
   std::vector<Span> B_span_, C_span_;
 };

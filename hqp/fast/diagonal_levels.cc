@@ -30,7 +30,7 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   t_.resize(square);
   q_.resize(square);
   l_.resize(static_cast<size_t>(n_) * (n_ + 1) / 2);
-  for (std::vector<double>* vector :
+  for (AlignedDoubles* vector :
        {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &inverse_scale_,
         &x_, &magnitude_, &gradient_, &z_, &nu_, &scratch_, &factor_,
         &reflection_, &direction_, &probe_}) {

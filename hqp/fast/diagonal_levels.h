@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "poise/hqp/aligned_doubles.h"
 #include "poise/hqp/fast/fixed_variables.h"
 #include "poise/hqp/fast/lexicographic_factorization.h"
 
@@ -164,10 +165,10 @@ class DiagonalLevels {
   void FindMultipliers(int level);
 
   int n_, stride_, num_levels_ = 0;
-  int num_free_ = 0;                     ///< Number of positions.
-  int rank_ = 0;                         ///< Rows of Q that fix no variable.
-  std::vector<int> level_of_;            ///< By variable; -1: none yet.
-  std::vector<double> weight_, target_;  ///< By variable.
+  int num_free_ = 0;                ///< Number of positions.
+  int rank_ = 0;                    ///< Rows of Q that fix no variable.
+  std::vector<int> level_of_;       ///< By variable; -1: none yet.
+  AlignedDoubles weight_, target_;  ///< By variable.
   double largest_target_ = 0;
   /// Variable by position: the free ones by level, then the fixed ones.
   std::vector<int> order_;
@@ -175,19 +176,19 @@ class DiagonalLevels {
   int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
   int usual_row_end_ = 0;      ///< Earlier rows have only these variables.
   std::vector<Block> blocks_;  ///< By level.
-  std::vector<double> t_;      ///< U' Q, by position, n x stride.
-  std::vector<double> reflection_;                    ///< By row of U' Q.
-  std::vector<double> start_, step_, ideal_, scale_;  ///< By position.
-  std::vector<double> inverse_scale_;                 ///< By position.
-  std::vector<double> x_, magnitude_;                 ///< By position.
-  std::vector<double> gradient_;  ///< Gradient on fixed variables, by position.
-  std::vector<double> z_, nu_;    ///< By row of U' Q.
-  std::vector<double> q_, l_;     ///< T_cc/d = L Q, by level; see L().
-  std::vector<double> scratch_, factor_;
+  AlignedDoubles t_;           ///< U' Q, by position, n x stride.
+  AlignedDoubles reflection_;  ///< By row of U' Q.
+  AlignedDoubles start_, step_, ideal_, scale_;  ///< By position.
+  AlignedDoubles inverse_scale_;                 ///< By position.
+  AlignedDoubles x_, magnitude_;                 ///< By position.
+  AlignedDoubles gradient_;  ///< Gradient on fixed variables, by position.
+  AlignedDoubles z_, nu_;    ///< By row of U' Q.
+  AlignedDoubles q_, l_;     ///< T_cc/d = L Q, by level; see L().
+  AlignedDoubles scratch_, factor_;
   /// By position: a direction by which the row spaces of T and Q differ, or in Dual()
   /// the sum T' nu.
-  std::vector<double> direction_;
-  std::vector<double> probe_;  ///< By row: factors of sums of rows.
+  AlignedDoubles direction_;
+  AlignedDoubles probe_;    ///< By row: factors of sums of rows.
   std::vector<int> pivot_;  ///< By row of a later level: position of its pivot.
   bool is_factored_ = false;  ///< Whether T, L and Q are those of Solve().
   std::int64_t multiply_adds_ = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "poise/hqp/aligned_doubles.h"
 #include "poise/hqp/fast/fixed_variables.h"
 #include "poise/hqp/fast/projected_rows.h"
 
@@ -228,17 +229,17 @@ class LexicographicFactorization {
   std::vector<Level> levels_;
   /// max_rows x stride: rows, then remainders, then the rows of Reduce(). Rows of a level
   /// that is determined stay.
-  std::vector<double> work_;
-  std::vector<double> l_;  ///< max_rows x stride: rows of L.
-  std::vector<double> q_;  ///< n x stride; see variables().
+  AlignedDoubles work_;
+  AlignedDoubles l_;  ///< max_rows x stride: rows of L.
+  AlignedDoubles q_;  ///< n x stride; see variables().
   /// n x stride: effective rows of L. Those of a deficient level hold its own
   /// columns only.
-  std::vector<double> effective_;
-  std::vector<double> z_;
-  std::vector<double> target_, metric_, residual_, rest_, fresh_;
-  std::vector<int> carrier_;        ///< Row that an effective row replaces.
-  std::vector<double> reflection_;  ///< n x max_rows.
-  std::vector<double> factor_, scratch_, cosine_, sine_, packed_;
+  AlignedDoubles effective_;
+  AlignedDoubles z_;
+  AlignedDoubles target_, metric_, residual_, rest_, fresh_;
+  std::vector<int> carrier_;   ///< Row that an effective row replaces.
+  AlignedDoubles reflection_;  ///< n x max_rows.
+  AlignedDoubles factor_, scratch_, cosine_, sine_, packed_;
   std::vector<bool> chosen_;
   std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
   std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.

@@ -11,11 +11,12 @@ ProjectedRows::ProjectedRows(int num_variables, int num_keys, int max_rows)
     : n_(num_variables),
       stride_((num_variables + 3) / 4 * 4),
       max_rows_(max_rows),
+      slot_stride_((max_rows + 3) / 4 * 4),
       slot_(num_keys, -1),
       key_(max_rows),
       is_used_(max_rows),
       remainder_(Index(max_rows, stride_)),
-      l_(Index(num_variables, max_rows)),
+      l_(Index(num_variables, slot_stride_)),
       factor_(max_rows) {}
 
 void ProjectedRows::Clear(int rank) {

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "poise/hqp/aligned_doubles.h"
+
 namespace poise {
 
 /// Rows of unit length, each split by an orthonormal basis Q into coefficients
@@ -62,18 +64,18 @@ class ProjectedRows {
 
  private:
   double* remainder(int slot) { return &remainder_[Index(slot, stride_)]; }
-  double* coefficients(int e) { return &l_[Index(e, max_rows_)]; }
+  double* coefficients(int e) { return &l_[Index(e, slot_stride_)]; }
   static std::size_t Index(int i, int stride) {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride);
   }
 
-  int n_, stride_, max_rows_, rank_ = 0, size_ = 0;
-  std::vector<int> slot_;          ///< By key; -1: not there.
-  std::vector<int> key_;           ///< By slot.
-  std::vector<bool> is_used_;      ///< By slot.
-  std::vector<double> remainder_;  ///< max_rows x stride, by slot.
-  std::vector<double> l_;          ///< n x max_rows: columns are slots.
-  std::vector<double> factor_;     ///< By slot.
+  int n_, stride_, max_rows_, slot_stride_, rank_ = 0, size_ = 0;
+  std::vector<int> slot_;      ///< By key; -1: not there.
+  std::vector<int> key_;       ///< By slot.
+  std::vector<bool> is_used_;  ///< By slot.
+  AlignedDoubles remainder_;   ///< max_rows x stride, by slot.
+  AlignedDoubles l_;           ///< n x slot stride: columns are slots.
+  AlignedDoubles factor_;      ///< By slot.
 };
 
 }  // namespace poise
