@@ -26,6 +26,7 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   level_of_.resize(n_);
   order_.resize(n_);
   pivot_.resize(n_);
+  column_.resize(n_);
   blocks_.resize(max_levels + 1);
   t_.resize(square);
   q_.resize(square);
@@ -203,19 +204,11 @@ void DiagonalLevels::Gather(const double* rows, int stride, int count,
   Arrange(variables);
   rank_ = count;
   is_factored_ = false;
-  for (int p = 0; p < num_free_;) {
-    // Consecutive columns are copied together.
-    const int first = variables.column(order_[p]);
-    int run = 1;
-    while (p + run < num_free_ &&
-           variables.column(order_[p + run]) == first + run) {
-      ++run;
-    }
-    for (int i = 0; i < rank_; ++i) {
-      std::copy_n(rows + static_cast<size_t>(i) * stride + first, run,
-                  &t_[static_cast<size_t>(i) * stride_ + p]);
-    }
-    p += run;
+  for (int p = 0; p < num_free_; ++p) column_[p] = variables.column(order_[p]);
+  for (int i = 0; i < rank_; ++i) {
+    const double* from = rows + static_cast<size_t>(i) * stride;
+    double* to = &t_[Index(i)];
+    for (int p = 0; p < num_free_; ++p) to[p] = from[column_[p]];
   }
 }
 
@@ -388,7 +381,7 @@ double DiagonalLevels::FactorRow(int level, int row) {
     return 0;
   }
   l[i] = std::sqrt(after);
-  kernels::Scale(1 / l[i], columns, q);
+  kernels::Scale(q, 1 / l[i], columns, q);
   return std::sqrt(after / before);
 }
 

@@ -189,6 +189,7 @@ class DiagonalLevels {
   /// the sum T' nu.
   AlignedDoubles direction_;
   AlignedDoubles probe_;    ///< By row: factors of sums of rows.
+  std::vector<int> column_;  ///< By position: Gather() copies this column.
   std::vector<int> pivot_;  ///< By row of a later level: position of its pivot.
   bool is_factored_ = false;  ///< Whether T, L and Q are those of Solve().
   std::int64_t multiply_adds_ = 0;

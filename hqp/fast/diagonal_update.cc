@@ -160,7 +160,7 @@ bool DiagonalLevels::SubtractProjectionOnQ(
 bool DiagonalLevels::Normalize() {
   const double length = std::sqrt(SquaredNorm(direction_.data(), num_free_));
   if (length <= tolerances::kSameRowSpace) return false;
-  kernels::Divide(direction_.data(), length, num_free_, direction_.data());
+  kernels::Scale(direction_.data(), 1 / length, num_free_, direction_.data());
   return true;
 }
 

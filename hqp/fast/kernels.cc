@@ -208,10 +208,10 @@ void AddToRows(double* rows, int stride, const int* index, int count,
 }
 
 POISE_TARGET_CLONES("fma")
-void Divide(const double* x, double divisor, int n, double* out) {
+void Scale(const double* x, double factor, int n, double* out) {
   int j = 0;
-  for (; j + 4 <= n; j += 4) POISE_STORE(out + j) = POISE_LOAD(x + j) / divisor;
-  for (; j < n; ++j) out[j] = x[j] / divisor;
+  for (; j + 4 <= n; j += 4) POISE_STORE(out + j) = POISE_LOAD(x + j) * factor;
+  for (; j < n; ++j) out[j] = x[j] * factor;
 }
 
 POISE_TARGET_CLONES("fma")
@@ -224,13 +224,6 @@ void MultiplyEntries(const double* x, const double* factor, double least, int n,
     POISE_STORE(out + j) = size < least ? none : xj * POISE_LOAD(factor + j);
   }
   for (; j < n; ++j) out[j] = std::abs(x[j]) < least ? 0 : factor[j] * x[j];
-}
-
-POISE_TARGET_CLONES("fma")
-void Scale(double factor, int n, double* x) {
-  int j = 0;
-  for (; j + 4 <= n; j += 4) POISE_STORE(x + j) *= factor;
-  for (; j < n; ++j) x[j] *= factor;
 }
 
 POISE_TARGET_CLONES("fma")

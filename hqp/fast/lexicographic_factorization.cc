@@ -77,7 +77,7 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
-  kernels::Divide(from + first, norm, end - first, scratch_.data());
+  kernels::Scale(from + first, 1 / norm, end - first, scratch_.data());
   for (int j = first; j < end; ++j) {
     to[variables_.column(j)] = scratch_[j - first];
   }
@@ -241,7 +241,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
       continue;
     }
     l[e] = norm;
-    kernels::Divide(q, norm, columns, q);
+    kernels::Scale(q, 1 / norm, columns, q);
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.

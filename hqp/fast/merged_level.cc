@@ -131,7 +131,7 @@ bool LexicographicFactorization::AppendRow() {
   std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
   l[rank_] = norm;
   const int columns = variables_.num_free();
-  kernels::Divide(row(a), norm, columns, q(rank_));
+  kernels::Scale(row(a), 1 / norm, columns, q(rank_));
   kept_.Extend(q(rank_), columns);
   Count(2 * kept_.size(), columns);
   carrier_[rank_] = a;
