@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/tolerances.h"
@@ -28,13 +29,14 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
   pivot_.resize(n_);
   column_.resize(n_);
   blocks_.resize(max_levels + 1);
+  group_begin_.resize(2 * blocks_.size() + 1);
   t_.resize(square);
   q_.resize(square);
   l_.resize(static_cast<size_t>(n_) * (n_ + 1) / 2);
   for (AlignedDoubles* vector :
-       {&weight_, &target_, &start_, &step_, &ideal_, &scale_, &inverse_scale_,
-        &x_, &magnitude_, &gradient_, &z_, &nu_, &scratch_, &factor_,
-        &reflection_, &direction_, &probe_}) {
+       {&weight_, &target_, &root_, &start_, &step_, &ideal_, &scale_,
+        &inverse_scale_, &x_, &magnitude_, &gradient_, &z_, &nu_, &scratch_,
+        &factor_, &reflection_, &direction_, &probe_}) {
     vector->resize(stride_);
   }
   // Factors from 1 to 2. No two are equal, so that two rows that are exchanged change a
@@ -73,6 +75,7 @@ void DiagonalLevels::Finish(const double* targets) {
   }
   largest_target_ = 0;
   for (int j = 0; j < n_; ++j) {
+    root_[j] = std::sqrt(weight_[j]);
     largest_target_ = std::max(largest_target_, std::abs(target_[j]));
   }
 }
@@ -81,30 +84,30 @@ void DiagonalLevels::Finish(const double* targets) {
 // the fixed ones.
 void DiagonalLevels::Arrange(const FixedVariables& variables) {
   const double usual = UsualWeight(variables);
-  int position = 0;
-  const auto add = [&](int level, bool is_usual) {
-    for (int j = 0; j < n_; ++j) {
-      if (level_of_[j] == level && (weight_[j] == usual) == is_usual &&
-          !variables.is_fixed(j)) {
-        order_[position++] = j;
-      }
-    }
+  // Two groups a level: first the variables of unusual weight.
+  const auto group = [&](int level) { return 2 * (num_levels_ - 1 - level); };
+  const auto group_of = [&](int j) {
+    return group(level_of_[j]) + (weight_[j] == usual ? 1 : 0);
   };
-  for (int level = num_levels_ - 1; level >= 0; --level) {
-    blocks_[level].begin = position;
-    add(level, false);
-    usual_begin_ = position;  // The last value is level 0's.
-    add(level, true);
-    blocks_[level].end = position;
+  std::fill(group_begin_.begin(), group_begin_.end(), 0);
+  for (int j = 0; j < n_; ++j) {
+    if (!variables.is_fixed(j)) ++group_begin_[group_of(j) + 1];
   }
-  num_free_ = position;
+  std::partial_sum(group_begin_.begin(), group_begin_.end(),
+                   group_begin_.begin());
+  for (int level = 0; level < num_levels_; ++level) {
+    blocks_[level].begin = group_begin_[group(level)];
+    blocks_[level].end = group_begin_[group(level) + 2];
+  }
+  usual_begin_ = group_begin_[group(0) + 1];
+  num_free_ = blocks_[0].end;
+  for (int j = 0; j < n_; ++j) {
+    if (!variables.is_fixed(j)) order_[group_begin_[group_of(j)]++] = j;
+  }
   for (int e = 0; e < variables.size(); ++e) {
-    order_[position++] = variables.fixed_variable(e);
+    order_[num_free_ + e] = variables.fixed_variable(e);
   }
-  for (int p = 0; p < n_; ++p) {
-    scale_[p] = std::sqrt(weight_[order_[p]]);
-    inverse_scale_[p] = 1 / scale_[p];
-  }
+  for (int p = 0; p < n_; ++p) SetScale(p);
 }
 
 // Returns the weight that more than half of the first level's free variables have,

@@ -110,6 +110,10 @@ class DiagonalLevels {
   };
   double UsualWeight(const FixedVariables& variables) const;
   void Arrange(const FixedVariables& variables);
+  void SetScale(int position) {
+    scale_[position] = root_[order_[position]];
+    inverse_scale_[position] = 1 / scale_[position];
+  }
   int num_fixed() const { return n_ - num_free_; }
   /// Index of the first entry of a row of T, and of the Q of its level.
   std::size_t Index(int row) const {
@@ -169,10 +173,12 @@ class DiagonalLevels {
   int rank_ = 0;                    ///< Rows of Q that fix no variable.
   std::vector<int> level_of_;       ///< By variable; -1: none yet.
   AlignedDoubles weight_, target_;  ///< By variable.
+  AlignedDoubles root_;             ///< Of the weight, by variable.
   double largest_target_ = 0;
   /// Variable by position: the free ones by level, then the fixed ones.
   std::vector<int> order_;
-  FixedVariables none_;        ///< No variable is fixed.
+  std::vector<int> group_begin_;  ///< Arrange(): first positions of its groups.
+  FixedVariables none_;           ///< No variable is fixed.
   int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
   int usual_row_end_ = 0;      ///< Earlier rows have only these variables.
   std::vector<Block> blocks_;  ///< By level.
@@ -188,7 +194,7 @@ class DiagonalLevels {
   /// By position: a direction by which the row spaces of T and Q differ, or in Dual()
   /// the sum T' nu.
   AlignedDoubles direction_;
-  AlignedDoubles probe_;    ///< By row: factors of sums of rows.
+  AlignedDoubles probe_;     ///< By row: factors of sums of rows.
   std::vector<int> column_;  ///< By position: Gather() copies this column.
   std::vector<int> pivot_;  ///< By row of a later level: position of its pivot.
   bool is_factored_ = false;  ///< Whether T, L and Q are those of Solve().

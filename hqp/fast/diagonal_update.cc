@@ -180,10 +180,7 @@ bool DiagonalLevels::Release(int p) {
   order_[p] = order_[end];
   order_[end] = order_[position];
   order_[position] = variable;
-  for (const int at : {p, end, position}) {
-    scale_[at] = std::sqrt(weight_[order_[at]]);
-    inverse_scale_[at] = 1 / scale_[at];
-  }
+  for (const int at : {p, end, position}) SetScale(at);
   InsertUnit(0, row, position, end, t_.data());
   if (!IsSquare()) {
     InsertUnit(first.row_begin, row, position - first.begin, end - first.begin,

@@ -208,6 +208,13 @@ void AddToRows(double* rows, int stride, const int* index, int count,
 }
 
 POISE_TARGET_CLONES("fma")
+void Divide(const double* x, double divisor, int n, double* out) {
+  int j = 0;
+  for (; j + 4 <= n; j += 4) POISE_STORE(out + j) = POISE_LOAD(x + j) / divisor;
+  for (; j < n; ++j) out[j] = x[j] / divisor;
+}
+
+POISE_TARGET_CLONES("fma")
 void Scale(const double* x, double factor, int n, double* out) {
   int j = 0;
   for (; j + 4 <= n; j += 4) POISE_STORE(out + j) = POISE_LOAD(x + j) * factor;

@@ -53,13 +53,16 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n);
 
+/// out_j = x_j / divisor. A row of integers keeps its directions to the last digit, which
+/// Scale() with the reciprocal would change.
+void Divide(const double* x, double divisor, int n, double* out);
+
 /// out = factor x. `out` may be `x`.
 void Scale(const double* x, double factor, int n, double* out);
 
 /// out_j = factor_j x_j, or 0 where |x_j| < least.
 void MultiplyEntries(const double* x, const double* factor, double least, int n,
                      double* out);
-
 
 /// sums_j = sum_i row_ij^2, for i < count.
 void ColumnSquares(const double* rows, int stride, int count, int n,

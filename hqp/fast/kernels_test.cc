@@ -196,6 +196,28 @@ TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
   });
 }
 
+// A product with the divisor is the dividend, but for half a unit in the last place of the
+// quotient and of the product. The same holds for the quotient of such a product, in place.
+TEST_F(KernelsTest, DivideIsTheInverseOfMultiplication) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  for (const double divisor : {3.0, -0.7, 1e-9, 4.1e12}) {
+    for (int n = 0; n <= kMaxSize; ++n) {
+      std::vector<double> out(kStride, kUntouched), multiples = x_;
+      kernels::Divide(x_.data(), divisor, n, out.data());
+      for (int j = 0; j < n; ++j) multiples[j] *= divisor;
+      kernels::Divide(multiples.data(), divisor, n, multiples.data());
+      for (int j = 0; j < n; ++j) {
+        EXPECT_NEAR(out[j] * divisor, x_[j], kEpsilon * std::abs(x_[j])) << j;
+        EXPECT_NEAR(multiples[j], x_[j], kEpsilon * std::abs(x_[j])) << j;
+      }
+      for (int j = n; j < kStride; ++j) {
+        EXPECT_EQ(out[j], kUntouched) << j;
+        EXPECT_EQ(multiples[j], x_[j]) << j;
+      }
+    }
+  }
+}
+
 // The squared length of all rows is the sum over the columns. A column alone is checked with
 // a matrix that has no other one.
 TEST_F(KernelsTest, ColumnSquaresSumToTheSquaredLengthOfTheRows) {

@@ -47,12 +47,9 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   reflection_.resize(static_cast<size_t>(n_) * max_rows);
   factor_.resize(std::max(max_rows, stride_));
   scratch_.resize(std::max(max_rows, stride_));
-  cosine_.resize(n_);
-  sine_.resize(n_);
   packed_.resize(n_);
   chosen_.resize(max_rows);
   open_.resize(max_rows);
-  nonzero_.resize(max_rows);
   key_.resize(max_rows);
   is_recalled_.resize(max_rows);
 }
@@ -77,7 +74,7 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
-  kernels::Scale(from + first, 1 / norm, end - first, scratch_.data());
+  kernels::Divide(from + first, norm, end - first, scratch_.data());
   for (int j = first; j < end; ++j) {
     to[variables_.column(j)] = scratch_[j - first];
   }
@@ -213,7 +210,11 @@ void LexicographicFactorization::Count(int rows, int columns) {
 void LexicographicFactorization::PivotRows(Level* level) {
   const int columns = variables_.num_free();
   int open = 0;  // Rows that are neither orthogonalised nor zero.
+  const int rows = level->end_row - level->first_row;
+  const int most = std::min(rows, n_ - level->rank_begin);
   for (int a = level->first_row; a < level->end_row; ++a) {
+    std::fill_n(&l_[static_cast<size_t>(a) * stride_] + level->rank_begin, most,
+                0);
     open_[open++] = a;
     fresh_[a] = rest_[a];  // As last computed, not downdated.
   }
@@ -234,7 +235,6 @@ void LexicographicFactorization::PivotRows(Level* level) {
       TakeOut(is_clean ? kept_.rank() : variables_.size(), e, q, l);
     }
     const double norm = std::sqrt(SquaredNorm(q, columns));
-    l[e] = 0;
     if (norm <= kRankTolerance) {
       // The remainder was rounding of other rows. The row is dependent.
       rest_[pivot] = 0;
@@ -245,9 +245,6 @@ void LexicographicFactorization::PivotRows(Level* level) {
     carrier_[e] = pivot;
     ++level->rank_end;
     // Update the other rows: coefficient, remainder, and squared norm.
-    for (int a = level->first_row; a < level->end_row; ++a) {
-      if (a != pivot) l_[static_cast<size_t>(a) * stride_ + e] = 0;
-    }
     Dots(row(0), stride_, open_.data(), open, q, columns, factor_.data());
     for (int i = 0; i < open; ++i) {
       const int a = open_[i];
@@ -271,17 +268,24 @@ void LexicographicFactorization::PivotRows(Level* level) {
 // Removes the row with the largest weighted remainder, and rows whose remainder
 // is zero, from the first `open` of open_. Returns this row, or -1 if all are zero.
 int LexicographicFactorization::TakePivot(int* open) {
-  int pivot = -1, left = 0;
+  int pivot = -1, at = 0, left = 0;
+  double largest = 0;
   for (int i = 0; i < *open; ++i) {
     const int a = open_[i];
     if (rest_[a] <= kRankTolerance * kRankTolerance) continue;
-    open_[left++] = a;
-    if (pivot < 0 || weight(a) * rest_[a] > weight(pivot) * rest_[pivot]) {
+    const double weighted = weight(a) * rest_[a];
+    if (pivot < 0 || weighted > largest) {
       pivot = a;
+      at = left;
+      largest = weighted;
     }
+    open_[left++] = a;
   }
-  *open = static_cast<int>(
-      std::remove(open_.begin(), open_.begin() + left, pivot) - open_.begin());
+  if (pivot >= 0) {
+    std::copy(&open_[at] + 1, open_.data() + left, &open_[at]);
+    --left;
+  }
+  *open = left;
   return pivot;
 }
 
@@ -301,6 +305,7 @@ void LexicographicFactorization::Reduce(Level* level) {
     }
     chosen_[a] = false;
   }
+  int* nonzero = open_.data();  // PivotRows() has closed all rows.
   for (int e = end - 1; e >= begin && !IsLate(); --e) {
     // The reflection moves column e of the rows not yet chosen into the row
     // where its entry is largest. Most entries are zero: those of all rows that
@@ -314,7 +319,7 @@ void LexicographicFactorization::Reduce(Level* level) {
       if (chosen_[first + i]) continue;
       v[i] = row(first + i)[e];
       squares += v[i] * v[i];
-      if (v[i] != 0) nonzero_[count++] = i;
+      if (v[i] != 0) nonzero[count++] = i;
       if (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot])) pivot = i;
     }
     const double alpha =
@@ -325,16 +330,16 @@ void LexicographicFactorization::Reduce(Level* level) {
       const double root = std::sqrt(length);  // So that H = I - v v'.
       const int columns = e + 1 - begin;
       for (int k = 0; k < count; ++k) {
-        const int i = nonzero_[k];
+        const int i = nonzero[k];
         v[i] /= root;
         factor_[k] = v[i];
       }
       std::fill_n(scratch_.data(), columns, 0);
-      AddRows(row(first) + begin, stride_, nonzero_.data(), count,
-              factor_.data(), columns, scratch_.data());
+      AddRows(row(first) + begin, stride_, nonzero, count, factor_.data(),
+              columns, scratch_.data());
       for (int k = 0; k < count; ++k) factor_[k] = -factor_[k];
-      AddToRows(row(first) + begin, stride_, nonzero_.data(), count,
-                factor_.data(), scratch_.data(), columns);
+      AddToRows(row(first) + begin, stride_, nonzero, count, factor_.data(),
+                scratch_.data(), columns);
       Count(2 * count, columns);
     }
     chosen_[first + pivot] = true;

@@ -239,10 +239,10 @@ class LexicographicFactorization {
   AlignedDoubles target_, metric_, residual_, rest_, fresh_;
   std::vector<int> carrier_;   ///< Row that an effective row replaces.
   AlignedDoubles reflection_;  ///< n x max_rows.
-  AlignedDoubles factor_, scratch_, cosine_, sine_, packed_;
+  AlignedDoubles factor_, scratch_, packed_;
   std::vector<bool> chosen_;
-  std::vector<int> open_;     ///< Rows that PivotRows() has not finished.
-  std::vector<int> nonzero_;  ///< Rows of the level that Reduce() reflects.
+  /// Rows that PivotRows() has not finished; then, rows that Reduce() reflects.
+  std::vector<int> open_;
   std::int64_t multiply_adds_ = 0;
   std::int64_t max_multiply_adds_ = std::numeric_limits<std::int64_t>::max();
   ProjectedRows kept_;  ///< Rows with a key, on the merged levels.

@@ -12,6 +12,17 @@ namespace poise {
 
 using kernels::SquaredNorm;
 
+namespace {
+
+// (x_0, x_1) = (c x_0 + s x_1, c x_1 - s x_0).
+void RotateColumns(double c, double s, double* x) {
+  const double first = x[0], second = x[1];
+  x[0] = c * first + s * second;
+  x[1] = c * second - s * first;
+}
+
+}  // namespace
+
 int LexicographicFactorization::AddFixedVariable(int variable, double entry,
                                                  double target, double metric) {
   const int a = AddRow(target, metric);
@@ -64,19 +75,14 @@ void LexicographicFactorization::RemoveRow(int a) {
   for (int e = removed; e + 1 < rank_; ++e) {
     // The next row of L moves up and has one entry too many. A rotation of its
     // last two columns, and of the two rows of Q, eliminates that entry.
-    double* row = effective(e);
-    std::copy_n(effective(e + 1), e + 2, row);
-    for (int k = removed; k < e; ++k) {
-      const double x = row[k], y = row[k + 1];
-      row[k] = cosine_[k] * x + sine_[k] * y;
-      row[k + 1] = cosine_[k] * y - sine_[k] * x;
-    }
-    const double length = kernels::Length(row[e], row[e + 1]);
-    cosine_[e] = row[e] / length;
-    sine_[e] = row[e + 1] / length;
-    row[e] = length;
-    kernels::Rotate(cosine_[e], sine_[e], columns, q(e), q(e + 1));
-    kept_.Rotate(e, cosine_[e], sine_[e]);
+    double* next = effective(e + 1);
+    const double length = kernels::Length(next[e], next[e + 1]);
+    const double c = next[e] / length, s = next[e + 1] / length;
+    next[e] = length;
+    for (int i = e + 2; i < rank_; ++i) RotateColumns(c, s, effective(i) + e);
+    std::copy_n(next, e + 1, effective(e));
+    kernels::Rotate(c, s, columns, q(e), q(e + 1));
+    kept_.Rotate(e, c, s);
     Count(4, columns + kept_.size());
     carrier_[e] = carrier_[e + 1];
   }
@@ -165,26 +171,20 @@ void LexicographicFactorization::FixLast(int variable, double entry) {
   double* l = scratch_.data();
   std::copy_n(effective(last), last + 1, l);
   for (int e = last; e > first; --e) {
+    // Row e - 1 of L moves down.
+    double* moved = effective(e);
+    std::copy_n(effective(e - 1), e, moved);
+    moved[e] = 0;
+    carrier_[e] = carrier_[e - 1];
     const double length = kernels::Length(l[e - 1], l[e]);
-    cosine_[e] = l[e - 1] / length;
-    sine_[e] = l[e] / length;
+    const double c = l[e - 1] / length, s = l[e] / length;
     l[e - 1] = length;
-    kernels::Rotate(cosine_[e], sine_[e], columns, q(e - 1), q(e));
-    kept_.Rotate(e - 1, cosine_[e], sine_[e]);
+    for (int i = e; i <= last; ++i) RotateColumns(c, s, effective(i) + e - 1);
+    kernels::Rotate(c, s, columns, q(e - 1), q(e));
+    kept_.Rotate(e - 1, c, s);
     Count(4, columns + kept_.size());
   }
-  for (int e = last; e > first; --e) {
-    double* row = effective(e);
-    std::copy_n(effective(e - 1), e, row);
-    row[e] = 0;
-    for (int k = e; k > first; --k) {
-      const double x = row[k - 1], y = row[k];
-      row[k - 1] = cosine_[k] * x + sine_[k] * y;
-      row[k] = cosine_[k] * y - sine_[k] * x;
-    }
-    row[first] *= entry;
-    carrier_[e] = carrier_[e - 1];
-  }
+  for (int e = first + 1; e <= last; ++e) effective(e)[first] *= entry;
   std::fill_n(effective(first), first, 0);
   effective(first)[first] = entry;
   carrier_[first] = carrier;

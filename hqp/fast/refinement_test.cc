@@ -233,7 +233,7 @@ TEST_F(RefinementTest, KeepsSmallEntriesThatALevelNeeds) {
 TEST_F(RefinementTest, ComparesTheResidualOfALevelWithItsTerms) {
   const Met large{Row({1, 1, 0, 0, 0, 0}), 1e18};
   const Eigen::VectorXd y = Refine({large,
-                                    {Row({0, 1, 2, 0, 0, 0}), 0, 1},
+                                    {Row({0, 1, 5, 0, 0, 0}), 0, 1},
                                     {Row({0, 3, -1, 0, 0, 0}), 0, 1},
                                     {Row({0, 0, 0, 1, 1, 0}), 5.5, 2},
                                     {Row({0, 0, 0, 1, 0, 1}), 10, 2},

@@ -228,32 +228,38 @@ void WorkingSetProblem::FactorFrom(const Hierarchy& hierarchy,
 void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
                                     const std::vector<Side>& side, int level,
                                     int first_key) {
-  ForEachRow(hierarchy, side, level, [&](const Row& row, double metric, int i) {
-    AddRow(row, Original(hierarchy, row), metric,
-           first_key == kNoKey ? kNoKey : first_key + i);
-  });
+  ForEachRow(
+      hierarchy, side, level, [](Span) { return true; },
+      [&](const Row& row, double metric, int i) {
+        AddRow(row, Original(hierarchy, row), metric,
+               first_key == kNoKey ? kNoKey : first_key + i);
+      });
   leading_.FactorLevel();
   factored_[level] = side;
 }
 
-// Calls use(row, metric, number) for the rows of a level that are not zero: for the
-// equalities, and then for the inequalities in the working set.
-template <typename Use>
+// Calls use(row, metric, number) for the rows of a level that are not zero and whose span
+// is selected: for the equalities, and then for the inequalities in the working set.
+template <typename Selects, typename Use>
 void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
                                    const std::vector<Side>& side, int level,
+                                   const Selects& selects,
                                    const Use& use) const {
   const int equalities = hierarchy.num_equalities(level);
   for (int i = 0; i < equalities; ++i) {
     const double weight = hierarchy.weight(level)[i];
-    if (weight == 0 || B_norm_[level][i] == 0) continue;
-    const double* row = hierarchy.B(level).data() + i * n_;
     const Span span = hierarchy.B_span(level)[i];
+    if (weight == 0 || B_norm_[level][i] == 0 || !selects(span)) continue;
+    const double* row = hierarchy.B(level).data() + i * n_;
     const double target = -hierarchy.b(level)[i];
     use(Row{level, i, false, span, Norm(row, span), target}, std::sqrt(weight),
         i);
   }
   for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {
-    if (side[i] == Side::kNone || norm(level, i) == 0) continue;
+    if (side[i] == Side::kNone || norm(level, i) == 0 ||
+        !selects(hierarchy.C_span(level)[i])) {
+      continue;
+    }
     use(Inequality(hierarchy, level, i, side[i]), 1, equalities + i);
   }
 }
@@ -268,15 +274,16 @@ bool WorkingSetProblem::FactorMerged(const Hierarchy& hierarchy,
   for (const bool fixes : {true, false}) {
     for (int level = 0; level < met; ++level) {
       bool fits = true;
-      ForEachRow(hierarchy, side[level], level,
-                 [&](const Row& row, double metric, int) {
-                   if ((row.span.size == 1) != fixes || !fits) return;
-                   if (!fixes) {
-                     AddRow(row, Original(hierarchy, row), metric, kNoKey);
-                   } else {
-                     fits = AddFixedVariable(hierarchy, row, metric);
-                   }
-                 });
+      ForEachRow(
+          hierarchy, side[level], level,
+          [&](Span span) { return (span.size == 1) == fixes; },
+          [&](const Row& row, double metric, int) {
+            if (!fixes) {
+              AddRow(row, Original(hierarchy, row), metric, kNoKey);
+            } else {
+              fits = fits && AddFixedVariable(hierarchy, row, metric);
+            }
+          });
       if (!fits) return false;
     }
     if (leading_.num_rows() == 0) return false;
@@ -385,8 +392,9 @@ bool WorkingSetProblem::FixesVariables(
     const std::vector<std::vector<Side>>& side) const {
   bool any = false;
   for (int level = 0; level < std::min(num_met_, num_leading_); ++level) {
-    ForEachRow(hierarchy, side[level], level,
-               [&](const Row& row, double, int) { any |= row.span.size == 1; });
+    ForEachRow(
+        hierarchy, side[level], level, [](Span span) { return span.size == 1; },
+        [&](const Row&, double, int) { any = true; });
   }
   return any;
 }

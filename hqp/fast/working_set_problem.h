@@ -250,9 +250,9 @@ class WorkingSetProblem {
   void CountWork();
   static double Bound(const Hierarchy& hierarchy, int level, int i, Side side);
   Row Inequality(const Hierarchy& hierarchy, int level, int i, Side side) const;
-  template <typename Use>
+  template <typename Selects, typename Use>
   void ForEachRow(const Hierarchy& hierarchy, const std::vector<Side>& side,
-                  int level, const Use& use) const;
+                  int level, const Selects& selects, const Use& use) const;
   int NumMet() const;
   bool FixesVariables(const Hierarchy& hierarchy,
                       const std::vector<std::vector<Side>>& side) const;
