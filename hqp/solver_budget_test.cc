@@ -579,9 +579,9 @@ TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
 }
 
 // Levels 1 and 2 contradict each other in each tick, and all targets jump. An iteration that
-// begins in time ends at Budget::kMost times the limit at the latest. What follows it, and an iteration
-// that is not interrupted, take less than 1.25 times the first two iterations from an empty
-// working set with what follows them. Without interruptions, some ticks take longer.
+// begins in time ends at Budget::kMost times the limit at the latest. What follows it, and an
+// iteration that is not interrupted, take less than 1.25 times the first two iterations from an
+// empty working set with what follows them. Without interruptions, some ticks take longer.
 TEST(SolverBudget, EndsSoonAfterItsLimit) {
   constexpr int kVariables = 60, kLimits = 100, kTask = 20;
   constexpr double kLimit = 300e-6;

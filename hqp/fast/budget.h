@@ -33,19 +33,19 @@ struct Work {
 };
 
 /// Modelled time [s] of a multiply-add.
-inline constexpr double kSecondsPerMultiplyAdd = 0.164e-9;
+inline constexpr double kSecondsPerMultiplyAdd = 0.145e-9;
 
 /// Modelled time [s] of a solve. It depends on the problem alone, so that a
 /// replay with such a limit is exact. The time covers the check of the input, refinement,
-/// multipliers and the certificate. The constants are 1.07 times a fit to 55600 solves of 24
-/// sequences, each the fastest of 40 runs with its rows in the cache. Solves that are modelled
-/// with 250 to 350 us take 0.9 of this time in the median, 90 % between 0.7 and 1.1, and 99 %
+/// multipliers and the certificate. The constants are 1.08 times a fit to 55600 solves of 24
+/// sequences, each the fastest of 32 runs with its rows in the cache. Solves that are modelled
+/// with 250 to 350 us take 0.94 of this time in the median, 90 % between 0.7 and 1.1, and 99 %
 /// less than 1.2. With a smaller factor, some solves with 300 us would take more than 400 us
-/// (docs/notebook/2026-11-30-on-time.md).
+/// (docs/notebook/2026-11-30-rows-without-calls.md).
 inline double ModelledSeconds(const Work& work) {
-  constexpr double kPerSolve = 2.2e-6, kPerEntry = 5.4e-9, kPerActive = 0.62e-6;
-  constexpr double kPerWorkingSet = 5.2e-6, kPerPartOfOne = 2.2e-6;
-  constexpr double kPerWorkingSetAndActive = 0.105e-6;
+  constexpr double kPerSolve = 1.5e-6, kPerEntry = 5.2e-9, kPerActive = 0.53e-6;
+  constexpr double kPerWorkingSet = 5.2e-6, kPerPartOfOne = 1.7e-6;
+  constexpr double kPerWorkingSetAndActive = 0.092e-6;
   return kPerSolve + kPerEntry * work.num_entries +
          kPerActive * work.num_active + kPerWorkingSet * work.num_solved +
          kPerPartOfOne * work.num_partly_solved +
@@ -58,7 +58,10 @@ class Budget {
  public:
   /// An iteration is interrupted at this multiple of the limit. Nearly all iterations that
   /// begin in time end before.
-  static constexpr double kMost = 1.1;
+  static constexpr double kMost = 1.06;
+  /// Limits of time allow so many iterations, even if the time is over: the first finds the
+  /// start, and the second the direction of a step.
+  static constexpr int kAlways = 2;
   /// More multiply-adds than any solve takes.
   static constexpr std::int64_t kUnlimited = 1000000000000000;
 
@@ -69,13 +72,11 @@ class Budget {
 
   /// Uses one iteration, which factors or updates the levels, after this work in this
   /// solve. Returns false if the budget is spent, or if `limit` iterations have been
-  /// used. Limits of time allow two iterations even if the time is over: the first finds
-  /// the start, and the second the direction of a step.
+  /// used.
   bool Take(int limit, const Work& work) {
     if (iterations_ >= limit) return false;
-    is_late_ = IsLate(work);
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (iterations_ > 1 && is_late_);
+                (iterations_ >= kAlways && IsLate(work));
     if (is_spent_) return false;
     ++iterations_;
     return true;
@@ -83,10 +84,10 @@ class Budget {
   bool Take(const Work& work) { return Take(limits_.iterations + 1, work); }
 
   /// Returns how many multiply-adds the iteration of the last Take() may use, after this
-  /// work, so that it does not end later than kMost times the limit of time. If the time was
-  /// over before it, this is kUnlimited, so that the search advances.
+  /// work, so that it does not end later than kMost times the limit of time. For the first
+  /// kAlways iterations, this is kUnlimited: each solve advances the search.
   std::int64_t MultiplyAddsLeft(const Work& work) const {
-    if (is_late_) return kUnlimited;
+    if (iterations_ <= kAlways) return kUnlimited;
     double left = std::numeric_limits<double>::infinity();
     if (limits_.modelled_seconds > 0) {
       left = kMost * limits_.modelled_seconds - ModelledSeconds(work);
@@ -123,7 +124,6 @@ class Budget {
   BudgetLimits limits_;
   int iterations_ = 0;
   bool is_spent_ = false;
-  bool is_late_ = false;  ///< Whether the time was over at the last Take().
   const std::function<double()>* now_;
   double start_;
 };

@@ -89,8 +89,10 @@ TEST(Budget, KnowsWhetherItsTimeIsLimited) {
 TEST(Budget, LeavesTheMultiplyAddsUntilItsMost) {
   Work work = {1000, 7, 3, 20, 2, 1};
   const double limit = 2 * ModelledSeconds(work);
-  const std::int64_t left =
-      Budget({9, limit}, &no_clock).MultiplyAddsLeft(work);
+  Budget budget({9, limit}, &no_clock);
+  TakeFree(&budget);
+  EXPECT_TRUE(budget.Take({}));
+  const std::int64_t left = budget.MultiplyAddsLeft(work);
   work.multiply_adds += left;
   const double most = Budget::kMost * limit;
   EXPECT_NEAR(ModelledSeconds(work), most, kSecondsPerMultiplyAdd);
@@ -99,34 +101,39 @@ TEST(Budget, LeavesTheMultiplyAddsUntilItsMost) {
 TEST(Budget, LeavesTheMultiplyAddsOfTheTimeByTheClock) {
   double time = 5;
   const std::function<double()> now = [&] { return time; };
-  const Budget budget({9, 0, 2}, &now), both({9, 1e-3, 2}, &now);
+  Budget budget({9, 0, 2}, &now), both({9, 1e-3, 2}, &now),
+      modelled({9, 1e-3}, &no_clock);
+  for (Budget* each : {&budget, &both, &modelled}) {
+    TakeFree(each);
+    EXPECT_TRUE(each->Take({}));
+  }
   time = 6;
   const double seconds = Budget::kMost * 2 - 1;
   EXPECT_NEAR(
       static_cast<double>(budget.MultiplyAddsLeft({})) * kSecondsPerMultiplyAdd,
       seconds, kSecondsPerMultiplyAdd);
   // The earlier limit holds.
-  EXPECT_EQ(both.MultiplyAddsLeft({}),
-            Budget({9, 1e-3}, &no_clock).MultiplyAddsLeft({}));
+  EXPECT_EQ(both.MultiplyAddsLeft({}), modelled.MultiplyAddsLeft({}));
 }
 
-// An iteration that begins late may take any time, because the search must advance. An
-// iteration that begins in time has a limit, even if the time ends right after its begin.
-TEST(Budget, LeavesAllMultiplyAddsWithoutATimeLimitOrAfterIt) {
+// The first two iterations may take any time, because the search must advance. A later one
+// has a limit, even if the time ends right after its begin.
+TEST(Budget, LeavesAllMultiplyAddsForTheFirstIterations) {
   constexpr std::int64_t kUnlimited = Budget::kUnlimited;
-  EXPECT_EQ(Budget({9}, &no_clock).MultiplyAddsLeft({}), kUnlimited);
-  const Work work = {1000000};
-  const double limit = ModelledSeconds(work);
-  for (const double early : {1.0, 0.99}) {
-    Budget budget({9, early * limit}, &no_clock);
-    EXPECT_TRUE(budget.Take(work));
-    EXPECT_EQ(budget.MultiplyAddsLeft(work) < kUnlimited, early == 1);
-  }
   double time = 5;
   const std::function<double()> now = [&] { return time; };
+  Budget endless({9}, &no_clock),
+      modelled({9, ModelledSeconds({1000000})}, &no_clock);
   Budget by_clock({9, 0, 2}, &now);
   time = 6.9;
-  EXPECT_TRUE(by_clock.Take({}));
+  for (int iteration = 1; iteration <= 3; ++iteration) {
+    for (Budget* budget : {&endless, &modelled, &by_clock}) {
+      EXPECT_TRUE(budget->Take({1000000}));
+      EXPECT_EQ(budget->MultiplyAddsLeft({1000000}) == kUnlimited,
+                iteration < 3 || budget == &endless)
+          << iteration;
+    }
+  }
   time = 7.1;
   EXPECT_LT(by_clock.MultiplyAddsLeft({}), kUnlimited);
   EXPECT_GT(by_clock.MultiplyAddsLeft({}), 0);
@@ -136,8 +143,12 @@ TEST(Budget, LeavesManyMultiplyAddsInALongTime) {
   const std::function<double()> now = [] { return 0.0; };
   for (const double seconds :
        {1e3, 1e12, std::numeric_limits<double>::infinity()}) {
-    EXPECT_GT(Budget({9, seconds}, &no_clock).MultiplyAddsLeft({}), 1000000000);
-    EXPECT_GT(Budget({9, 0, seconds}, &now).MultiplyAddsLeft({}), 1000000000);
+    Budget modelled({9, seconds}, &no_clock), by_clock({9, 0, seconds}, &now);
+    for (Budget* budget : {&modelled, &by_clock}) {
+      TakeFree(budget);
+      EXPECT_TRUE(budget->Take({}));
+      EXPECT_GT(budget->MultiplyAddsLeft({}), 1000000000);
+    }
   }
 }
 

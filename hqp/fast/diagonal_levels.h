@@ -173,7 +173,7 @@ class DiagonalLevels {
   int rank_ = 0;                    ///< Rows of Q that fix no variable.
   std::vector<int> level_of_;       ///< By variable; -1: none yet.
   AlignedDoubles weight_, target_;  ///< By variable.
-  AlignedDoubles root_;             ///< Of the weight, by variable.
+  AlignedDoubles root_;             ///< Root of the weight, by variable.
   double largest_target_ = 0;
   /// Variable by position: the free ones by level, then the fixed ones.
   std::vector<int> order_;

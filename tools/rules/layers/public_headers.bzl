@@ -22,6 +22,7 @@ PUBLIC_HEADERS = [
     "dynamics/rnea.h",
     "dynamics/tick.h",
     "dynamics/tree.h",
+    "hqp/aligned_doubles.h",
     "hqp/certificate.h",
     "hqp/four_doubles.h",
     "hqp/hierarchy.h",
