@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace poise {
 namespace {
@@ -33,9 +34,11 @@ TEST(AlignedDoubles, StayAlignedWhenTheyGrowAndMove) {
     EXPECT_TRUE(BeginsALine(x) && BeginsALine(copy)) << size;
     EXPECT_EQ(copy, x);
   }
-  const double* entries = x.data();
-  const AlignedDoubles moved = std::move(x);
-  EXPECT_EQ(moved.data(), entries);
+  AlignedDoubles assigned(3, 0.0);
+  assigned = std::move(x);
+  EXPECT_TRUE(BeginsALine(assigned));
+  EXPECT_EQ(assigned.size(), 100u);
+  EXPECT_EQ(assigned.back(), 100);
 }
 
 }  // namespace

@@ -76,13 +76,10 @@ Hierarchy::Hierarchy(int num_variables,
     throw std::invalid_argument(
         "hierarchy: the total number of rows is negative, must be 0 or more");
   }
-  const auto rows = [&](int count) {
-    return static_cast<size_t>(count) * num_variables;
-  };
-  B_.resize(rows(total.equalities));
+  B_.resize(Size(total.equalities));
   b_.setZero(total.equalities);
   weight_.setOnes(total.equalities);
-  C_.resize(rows(total.inequalities));
+  C_.resize(Size(total.inequalities));
   lower_.setZero(total.inequalities);
   upper_.setZero(total.inequalities);
   B_span_.resize(total.equalities);
@@ -120,8 +117,8 @@ EqualityBlock Hierarchy::AddEqualities(int level, int rows) noexcept {
   assert(to.equalities + rows <= to.most.equalities);
   const int first = to.first_equality + to.equalities;
   to.equalities += rows;
-  double* B = B_.data() + Index(first);
-  std::fill_n(B, Index(rows), 0);
+  double* B = B_.data() + Size(first);
+  std::fill_n(B, Size(rows), 0);
   b_.segment(first, rows).setZero();
   weight_.segment(first, rows).setOnes();
   std::fill_n(B_span_.begin() + first, rows, Span{0, num_variables_});
@@ -138,8 +135,8 @@ InequalityBlock Hierarchy::AddInequalities(int level, int rows) noexcept {
   const int first = to.first_inequality + to.inequalities;
   to.inequalities += rows;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double* C = C_.data() + Index(first);
-  std::fill_n(C, Index(rows), 0);
+  double* C = C_.data() + Size(first);
+  std::fill_n(C, Size(rows), 0);
   lower_.segment(first, rows).setConstant(-kInfinity);
   upper_.segment(first, rows).setConstant(kInfinity);
   std::fill_n(C_span_.begin() + first, rows, Span{0, num_variables_});
@@ -154,11 +151,11 @@ void Hierarchy::FindSpans() noexcept {
     const Level& level = levels_[k];
     for (int i = 0; i < level.equalities; ++i) {
       const int row = level.first_equality + i;
-      FindSpan(B_.data() + Index(row), num_variables_, &B_span_[row]);
+      FindSpan(B_.data() + Size(row), num_variables_, &B_span_[row]);
     }
     for (int i = 0; i < level.inequalities; ++i) {
       const int row = level.first_inequality + i;
-      FindSpan(C_.data() + Index(row), num_variables_, &C_span_[row]);
+      FindSpan(C_.data() + Size(row), num_variables_, &C_span_[row]);
     }
   }
 }

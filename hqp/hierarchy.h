@@ -104,8 +104,7 @@ class Hierarchy {
   /// Returns the rows of a level.
   Eigen::Map<const RowMajorMatrix> B(int level) const {
     const Level& of = levels_[level];
-    return {B_.data() + Index(of.first_equality), of.equalities,
-            num_variables_};
+    return {B_.data() + Size(of.first_equality), of.equalities, num_variables_};
   }
   Eigen::Map<const Eigen::VectorXd> b(int level) const {
     const Level& of = levels_[level];
@@ -117,7 +116,7 @@ class Hierarchy {
   }
   Eigen::Map<const RowMajorMatrix> C(int level) const {
     const Level& of = levels_[level];
-    return {C_.data() + Index(of.first_inequality), of.inequalities,
+    return {C_.data() + Size(of.first_inequality), of.inequalities,
             num_variables_};
   }
   Eigen::Map<const Eigen::VectorXd> lower(int level) const {
@@ -142,16 +141,16 @@ class Hierarchy {
     int equalities = 0, inequalities = 0;
     LevelCapacity most;  ///< See Clear().
   };
-  /// Index of the first entry of a row in B_ and C_.
-  std::size_t Index(int row) const {
-    return static_cast<std::size_t>(row) * num_variables_;
+  /// Number of entries of so many rows: the index of the next row in B_ and C_.
+  std::size_t Size(int rows) const {
+    return static_cast<std::size_t>(rows) * num_variables_;
   }
 
   int num_variables_;
   std::vector<LevelCapacity> capacity_;
   int used_levels_ = 0;
   std::vector<Level> levels_;
-  /// The rows of all levels, one level after the other.
+  /// The rows of all levels, one after the other.
   AlignedDoubles B_, C_;
   Eigen::VectorXd b_, weight_, lower_, upper_;
   std::vector<Span> B_span_, C_span_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -32,6 +33,37 @@ TEST(Hierarchy, ClearsTheRowsThatItAdds) {
     inequalities.lower.setConstant(7);
     inequalities.upper.setConstant(7);
   }
+}
+
+// The solver reads them with vectors of four doubles.
+TEST(Hierarchy, BeginsItsRowsAtACacheLine) {
+  Hierarchy hierarchy(5, {{3, 2}});
+  const std::vector<Hierarchy> all(20, hierarchy);
+  for (const Hierarchy& each : all) {
+    for (const double* rows : {each.B(0).data(), each.C(0).data()}) {
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(rows) % 64, 0u);
+    }
+  }
+}
+
+TEST(Hierarchy, CopiesHaveTheirOwnRows) {
+  Hierarchy hierarchy(2, {{1, 1}});
+  hierarchy.AddEqualities(0, 1).B << 1, 2;
+  InequalityBlock inequalities = hierarchy.AddInequalities(0, 1);
+  const Hierarchy copy = hierarchy;
+  inequalities.C << 3, 4;
+  EXPECT_EQ(copy.B(0), (RowMajorMatrix(1, 2) << 1, 2).finished());
+  EXPECT_TRUE(copy.C(0).isZero(0));
+}
+
+TEST(Hierarchy, MayHaveRowsWithoutVariables) {
+  Hierarchy hierarchy(0, {{2, 3}});
+  hierarchy.AddEqualities(0, 2).b << 5, 6;
+  hierarchy.AddInequalities(0, 3);
+  hierarchy.FindSpans();
+  EXPECT_EQ(hierarchy.B(0).rows(), 2);
+  EXPECT_EQ(hierarchy.C(0).rows(), 3);
+  EXPECT_EQ(hierarchy.b(0), Eigen::Vector2d(5, 6));
 }
 
 TEST(Hierarchy, KeepsBlocksInOrderAndLevelsApart) {

@@ -66,7 +66,8 @@ class Solver {
   /// has the time that was measured for it on the reference machine, so that a
   /// replay is exact (hqp/fast/budget.h). A limit of time, even a large one,
   /// changes the order of the search: the last of the levels that have inequalities or
-  /// rows of several variables is searched after the others.
+  /// rows of several variables is searched after the others. Each solve makes two iterations
+  /// and writes its answer, also if that takes longer.
   double max_modelled_seconds = 0;
 
   /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit

@@ -578,10 +578,10 @@ TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
   EXPECT_GT(cut_off, 100);
 }
 
-// Levels 1 and 2 contradict each other in each tick, and all targets jump. An iteration that
-// begins in time ends at Budget::kMost times the limit at the latest. What follows it, and an
-// iteration that is not interrupted, take less than 1.25 times the first two iterations from an
-// empty working set with what follows them. Without interruptions, some ticks take longer.
+// Levels 1 and 2 contradict each other in each tick, and all targets jump. The third iteration
+// and later ones end at Budget::kMost times the limit at the latest. What follows them, and the
+// first two, take less than 1.25 times the first two iterations from an empty working set with
+// what follows those. Without interruptions, some ticks take longer.
 TEST(SolverBudget, EndsSoonAfterItsLimit) {
   constexpr int kVariables = 60, kLimits = 100, kTask = 20;
   constexpr double kLimit = 300e-6;

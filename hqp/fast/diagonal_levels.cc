@@ -84,7 +84,7 @@ void DiagonalLevels::Finish(const double* targets) {
 // the fixed ones.
 void DiagonalLevels::Arrange(const FixedVariables& variables) {
   const double usual = UsualWeight(variables);
-  // Two groups a level: first the variables of unusual weight.
+  // Each level has two groups: the variables of unusual weight come first.
   const auto group = [&](int level) { return 2 * (num_levels_ - 1 - level); };
   const auto group_of = [&](int j) {
     return group(level_of_[j]) + (weight_[j] == usual ? 1 : 0);

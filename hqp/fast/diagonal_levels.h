@@ -177,7 +177,7 @@ class DiagonalLevels {
   double largest_target_ = 0;
   /// Variable by position: the free ones by level, then the fixed ones.
   std::vector<int> order_;
-  std::vector<int> group_begin_;  ///< Arrange(): first positions of its groups.
+  std::vector<int> group_begin_;  ///< Arrange(): next positions of its groups.
   FixedVariables none_;           ///< No variable is fixed.
   int usual_begin_ = 0;        ///< Level 0: first position of the usual weight.
   int usual_row_end_ = 0;      ///< Earlier rows have only these variables.

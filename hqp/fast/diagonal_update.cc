@@ -295,10 +295,7 @@ void DiagonalLevels::RotateFactor(int row, double c, double s) {
   const double cosine = l[i] / diagonal, sine = beyond / diagonal;
   l[i] = diagonal;
   for (int k = row + 1; k < first.row_end; ++k) {
-    double* entry = L(k) + i;
-    const double x = entry[0], y = entry[1];
-    entry[0] = cosine * x + sine * y;
-    entry[1] = cosine * y - sine * x;
+    kernels::RotatePair(cosine, sine, L(k) + i);
   }
   double* q = &q_[Index(row)];
   Rotate(cosine, sine, columns, q, q + stride_);

@@ -53,8 +53,7 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n);
 
-/// out_j = x_j / divisor. A row of integers keeps its directions to the last digit, which
-/// Scale() with the reciprocal would change.
+/// out_j = x_j / divisor. `out` may be `x`. More exact than Scale(), and eight times slower.
 void Divide(const double* x, double divisor, int n, double* out);
 
 /// out = factor x. `out` may be `x`.
@@ -80,6 +79,13 @@ void SpanAbsoluteSums(const double* rows, int stride, const Span* spans,
 
 /// max_i |x_i|, or 0 if n = 0.
 double Largest(const double* x, int n);
+
+/// (x_0, x_1) = (c x_0 + s x_1, c x_1 - s x_0).
+inline void RotatePair(double c, double s, double* x) {
+  const double first = x[0], second = x[1];
+  x[0] = c * first + s * second;
+  x[1] = c * second - s * first;
+}
 
 /// Returns the length of (x, y), faster than std::hypot(). A square that underflows, below
 /// 1e-308, is less than rounding of a sum above 1e-280. For smaller or infinite sums, this

@@ -74,6 +74,8 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
+  // Products with the reciprocal are rounded twice. At degenerate vertices, warm starts would
+  // then need iterations (docs/notebook/2026-11-30-rows-without-calls.md).
   kernels::Divide(from + first, norm, end - first, scratch_.data());
   for (int j = first; j < end; ++j) {
     to[variables_.column(j)] = scratch_[j - first];
@@ -305,7 +307,7 @@ void LexicographicFactorization::Reduce(Level* level) {
     }
     chosen_[a] = false;
   }
-  int* nonzero = open_.data();  // PivotRows() has closed all rows.
+  int* nonzero = open_.data();  // PivotRows() does not need its list any more.
   for (int e = end - 1; e >= begin && !IsLate(); --e) {
     // The reflection moves column e of the rows not yet chosen into the row
     // where its entry is largest. Most entries are zero: those of all rows that

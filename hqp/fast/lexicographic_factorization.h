@@ -241,7 +241,8 @@ class LexicographicFactorization {
   AlignedDoubles reflection_;  ///< n x max_rows.
   AlignedDoubles factor_, scratch_, packed_;
   std::vector<bool> chosen_;
-  /// Rows that PivotRows() has not finished; then, rows that Reduce() reflects.
+  /// PivotRows(): rows that are neither orthogonalised nor zero. Reduce(): numbers in the
+  /// level of the rows that it reflects.
   std::vector<int> open_;
   std::int64_t multiply_adds_ = 0;
   std::int64_t max_multiply_adds_ = std::numeric_limits<std::int64_t>::max();

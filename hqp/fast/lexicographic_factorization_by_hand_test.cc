@@ -80,6 +80,26 @@ TEST_F(LexicographicFactorizationTest, MeetsIndependentRowsOfAnyMetric) {
   EXPECT_LE((level.A * Optimum(stack, 2) - level.b).norm(), Rounding(2, 2, 4));
 }
 
+// Three rows of large weight contradict each other, and one of small weight has a variable of
+// its own, so that it is met, in any order of the rows. If it were orthogonalised before the
+// others, the rounding of their residuals would outweigh it.
+TEST_F(LexicographicFactorizationTest, MeetsARowOfSmallWeightInAnyOrder) {
+  const Eigen::RowVector3d small(0.36, 0.48, 0.8);
+  const RowMajorMatrix large{{1, 0, 0}, {0.6, 0.8, 0}, {0.28, 0.96, 0}};
+  for (int place = 0; place < 4; ++place) {
+    SCOPED_TRACE(place);
+    LexicographicFactorization stack(3, 4, 1);
+    LeastSquares level;
+    level.A.resize(4, 3);
+    level.A << large.topRows(place), small, large.bottomRows(3 - place);
+    level.b = Eigen::Vector4d(1, -2, 5, 3);
+    level.weight.setConstant(4, 1e12);
+    level.weight[place] = 1;
+    AddLevel(level, &stack);
+    EXPECT_NEAR(small.dot(Optimum(stack, 3)), level.b[place], Rounding(10, 3));
+  }
+}
+
 // Two rows at an angle `rest`, on one level or on two, with targets 1 and 2. If
 // the angle is rounding, the rows are dependent, and y2 does not become 1 /
 // rest. At any larger angle both rows are met.

@@ -12,17 +12,6 @@ namespace poise {
 
 using kernels::SquaredNorm;
 
-namespace {
-
-// (x_0, x_1) = (c x_0 + s x_1, c x_1 - s x_0).
-void RotateColumns(double c, double s, double* x) {
-  const double first = x[0], second = x[1];
-  x[0] = c * first + s * second;
-  x[1] = c * second - s * first;
-}
-
-}  // namespace
-
 int LexicographicFactorization::AddFixedVariable(int variable, double entry,
                                                  double target, double metric) {
   const int a = AddRow(target, metric);
@@ -79,7 +68,8 @@ void LexicographicFactorization::RemoveRow(int a) {
     const double length = kernels::Length(next[e], next[e + 1]);
     const double c = next[e] / length, s = next[e + 1] / length;
     next[e] = length;
-    for (int i = e + 2; i < rank_; ++i) RotateColumns(c, s, effective(i) + e);
+    for (int i = e + 2; i < rank_; ++i)
+      kernels::RotatePair(c, s, effective(i) + e);
     std::copy_n(next, e + 1, effective(e));
     kernels::Rotate(c, s, columns, q(e), q(e + 1));
     kept_.Rotate(e, c, s);
@@ -179,7 +169,8 @@ void LexicographicFactorization::FixLast(int variable, double entry) {
     const double length = kernels::Length(l[e - 1], l[e]);
     const double c = l[e - 1] / length, s = l[e] / length;
     l[e - 1] = length;
-    for (int i = e; i <= last; ++i) RotateColumns(c, s, effective(i) + e - 1);
+    for (int i = e; i <= last; ++i)
+      kernels::RotatePair(c, s, effective(i) + e - 1);
     kernels::Rotate(c, s, columns, q(e - 1), q(e));
     kept_.Rotate(e - 1, c, s);
     Count(4, columns + kept_.size());

@@ -69,7 +69,9 @@ class ProjectedRows {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride);
   }
 
-  int n_, stride_, max_rows_, slot_stride_, rank_ = 0, size_ = 0;
+  int n_, stride_, max_rows_;
+  int slot_stride_;  ///< max_rows_ rounded up, so that rows of l_ are aligned.
+  int rank_ = 0, size_ = 0;
   std::vector<int> slot_;      ///< By key; -1: not there.
   std::vector<int> key_;       ///< By slot.
   std::vector<bool> is_used_;  ///< By slot.

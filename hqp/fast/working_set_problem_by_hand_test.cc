@@ -431,7 +431,7 @@ TEST_F(ManyChangesTest, KeepsTheEqualitiesIfALaterLevelIsInterrupted) {
     Work work = problem.work();
     work.multiply_adds += part * needed / 10;
     Budget budget({9, ModelledSeconds(work) / Budget::kMost}, &no_clock);
-    while (budget.iterations() <= Budget::kAlways) (void)budget.Take({});
+    for (int i = 0; i <= Budget::kAlways; ++i) ASSERT_TRUE(budget.Take({}));
     EXPECT_FALSE(problem.SolveWithin(hierarchy_, sides, &budget));
     EXPECT_TRUE(budget.is_spent());
     ASSERT_LT(problem.leading().num_levels(), 2);

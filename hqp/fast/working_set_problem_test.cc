@@ -292,7 +292,7 @@ TEST_P(RandomWorkingSetProblemTest, SolvesAgainAfterAnInterruption) {
     const Sides sides = MakeSides(salt);
     Budget budget({9, ModelledSeconds(problem_.work()) / Budget::kMost},
                   &no_clock);
-    while (budget.iterations() <= Budget::kAlways) (void)budget.Take({});
+    for (int i = 0; i <= Budget::kAlways; ++i) ASSERT_TRUE(budget.Take({}));
     const std::int64_t before = problem_.leading().multiply_adds();
     const bool is_solved = problem_.SolveWithin(hierarchy_, sides, &budget);
     EXPECT_EQ(budget.is_spent(), !is_solved);
