@@ -72,7 +72,7 @@ class Solver {
 
   /// Time limit [s], measured by now(). 0, or no now(): no limit. A time limit
   /// makes a replay inexact; a limit of iterations does not. It changes the order
-  /// of the search as well.
+  /// of the search, and allows two iterations, as max_modelled_seconds does.
   double max_seconds = 0;
   std::function<double()> now;
 
