@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -19,6 +21,13 @@ LevelCapacity Sum(const std::vector<LevelCapacity>& capacity) {
   return sum;
 }
 
+// Returns whether four entries are zero, of either sign: the first bit is the sign.
+bool AreFourZeros(const double* x) {
+  std::uint64_t bits[4];
+  std::memcpy(bits, x, sizeof(bits));
+  return ((bits[0] | bits[1]) | (bits[2] | bits[3])) << 1 == 0;
+}
+
 // Shortens a span of all n columns to the nonzero entries of a row. NaN counts
 // as nonzero.
 void FindSpan(const double* row, int n, Span* span) {
@@ -30,15 +39,9 @@ void FindSpan(const double* row, int n, Span* span) {
     return;
   }
   int first = 0, end = n;
-  while (first + 4 <= n && row[first] == 0 && row[first + 1] == 0 &&
-         row[first + 2] == 0 && row[first + 3] == 0) {
-    first += 4;
-  }
+  while (first + 4 <= n && AreFourZeros(row + first)) first += 4;
   while (first < n && row[first] == 0) ++first;
-  while (end - 4 >= first && row[end - 1] == 0 && row[end - 2] == 0 &&
-         row[end - 3] == 0 && row[end - 4] == 0) {
-    end -= 4;
-  }
+  while (end - 4 >= first && AreFourZeros(row + end - 4)) end -= 4;
   while (end > first && row[end - 1] == 0) --end;
   *span = {first, end - first};
 }

@@ -208,6 +208,7 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
     problem_.Plan(hierarchy, levels);
     problem_.Solve(hierarchy, side_);
     problem_.Refine(hierarchy);
+    search_.set_y(problem_.y());
   } else {
     solution->status = Status::kIterationLimit;
     solution->failed_level = std::max(std::min(solved, levels - 1), 0);

@@ -407,6 +407,66 @@ TEST(Solver, RepeatsBitForBitAfterForget) {
   }
 }
 
+// A search that is cut off may just have removed a row. A search that starts later must not
+// take this row for one that it has removed itself.
+TEST(Solver, RepeatsBitForBitAfterASearchThatWasCutOff) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
+  Hierarchy hierarchy(2, capacity);
+  InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+  bounds.C << 1, 0, 1, 1;
+  bounds.upper << 0, 1;
+  EqualityBlock target = hierarchy.AddEqualities(1, 2);
+  target.B << 1, 1, 1, -1;
+  target.b << -6, 4;  // y = (1, 5).
+  Solver fresh(2, capacity);
+  Solution expected(2, capacity), solution(2, capacity);
+  (void)fresh.Solve(hierarchy, &expected);
+  for (int limit = 1; limit < expected.iterations; ++limit) {
+    SCOPED_TRACE(limit);
+    Solver solver(2, capacity);
+    const int most = solver.max_iterations;
+    solver.max_iterations = limit;
+    EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kIterationLimit);
+    solver.max_iterations = most;
+    solver.Forget();
+    EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    EXPECT_EQ(solution.iterations, expected.iterations);
+    EXPECT_EQ(solution.y, expected.y);
+  }
+}
+
+TEST(Solver, SolvesAHierarchyWithoutVariables) {
+  const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
+  Hierarchy hierarchy(0, capacity);
+  hierarchy.AddEqualities(0, 1).b << 3;
+  hierarchy.AddInequalities(0, 1).upper << -2;
+  hierarchy.AddEqualities(1, 1).b << 1;
+  for (const double seconds : {0.0, 1e-3}) {
+    Solver solver(0, capacity);
+    solver.max_modelled_seconds = seconds;
+    Solution solution(0, capacity);
+    for (int tick = 0; tick < 2; ++tick) {
+      EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+      EXPECT_EQ(solution.levels[0].cost, (3 * 3 + 2 * 2) / 2.0);
+      EXPECT_EQ(solution.levels[1].cost, 0.5);
+      EXPECT_EQ(solution.certificate.worst(), 0);
+    }
+  }
+}
+
+TEST(Solver, TheShortestYSolvesAHierarchyWithoutLevels) {
+  const Hierarchy hierarchy(3, {});
+  for (const double seconds : {0.0, 1e-3}) {
+    Solver solver(3, {});
+    solver.max_modelled_seconds = seconds;
+    Solution solution(3, {});
+    for (int tick = 0; tick < 2; ++tick) {
+      EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+      EXPECT_EQ(solution.y, Eigen::VectorXd::Zero(3));
+    }
+  }
+}
+
 // The row is 2 y0 <= 2, and y1 is 1e8. The rounding of y1 hides violations
 // below 1e-3 from the search. Refinement finds such a violation and adds the
 // row, unless the violation is rounding of 2 |y0| + 2.

@@ -115,6 +115,7 @@ bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
                                         WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   num_together_ = kMaxTogether;
+  last_removed_ = {};
   // A search that goes on adds the violated rows one by one, so that each can replace a
   // row that it depends on. With a limit of time, these are too many iterations.
   const bool adds_violated = !goes_on_ || budget->has_time_limit();
@@ -154,6 +155,7 @@ int ActiveSetSearch::LevelByLevel(const Hierarchy& hierarchy, Budget* budget,
                                   std::vector<std::vector<Side>>* side) {
   const int levels = hierarchy.num_levels();
   num_together_ = 0;
+  last_removed_ = {};
   goes_on_ = false;
   std::fill(y_.begin(), y_.end(), 0);
   for (std::vector<Side>& level : completed_) {

@@ -83,7 +83,9 @@ class Budget {
     ++iterations_;
     return true;
   }
-  bool Take(const Work& work) { return Take(limits_.iterations + 1, work); }
+  bool Take(const Work& work) {
+    return Take(std::numeric_limits<int>::max(), work);
+  }
 
   /// Returns how many multiply-adds the iteration of the last Take() may use, after this
   /// work, so that it does not end later than kMost times the limit of time. For the first
@@ -97,9 +99,10 @@ class Budget {
     if (now_ != nullptr) {
       left = std::min(left, kMost * limits_.seconds - Elapsed());
     }
-    // No number of multiply-adds is larger than kUnlimited, also if the limit is infinite.
-    return static_cast<std::int64_t>(std::min(static_cast<double>(kUnlimited),
-                                              left / kSecondsPerMultiplyAdd));
+    // The limit may be infinite, and a clock may jump.
+    constexpr double kLargest = kUnlimited;
+    return static_cast<std::int64_t>(
+        std::clamp(left / kSecondsPerMultiplyAdd, -kLargest, kLargest));
   }
 
   /// Ends the budget: an iteration has been interrupted.

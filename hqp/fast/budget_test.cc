@@ -23,6 +23,12 @@ TEST(Budget, EndsAfterItsIterations) {
   EXPECT_EQ(budget.iterations(), 3);
 }
 
+TEST(Budget, AllowsTheLargestNumberOfIterations) {
+  Budget budget({std::numeric_limits<int>::max()}, &no_clock);
+  EXPECT_TRUE(budget.Take({}));
+  EXPECT_FALSE(budget.is_spent());
+}
+
 // A limit ends one search; the rest of the budget remains.
 TEST(Budget, StopsAtALimit) {
   Budget budget({3}, &no_clock);
@@ -150,6 +156,16 @@ TEST(Budget, LeavesManyMultiplyAddsInALongTime) {
       EXPECT_GT(budget->MultiplyAddsLeft({}), 1000000000);
     }
   }
+}
+
+TEST(Budget, LeavesNoMultiplyAddsAfterAJumpOfTheClock) {
+  double time = 0;
+  const std::function<double()> now = [&] { return time; };
+  Budget budget({9, 0, 1}, &now);
+  TakeFree(&budget);
+  EXPECT_TRUE(budget.Take({}));
+  time = 1e300;
+  EXPECT_LT(budget.MultiplyAddsLeft({}), 0);
 }
 
 TEST(Budget, AllowsNoIterationOnceItIsSpent) {

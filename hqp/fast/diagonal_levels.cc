@@ -210,7 +210,7 @@ void DiagonalLevels::Gather(const double* rows, int stride, int count,
   for (int p = 0; p < num_free_; ++p) column_[p] = variables.column(order_[p]);
   for (int i = 0; i < rank_; ++i) {
     const double* from = rows + static_cast<size_t>(i) * stride;
-    double* to = &t_[Index(i)];
+    double* to = T(i);
     for (int p = 0; p < num_free_; ++p) to[p] = from[column_[p]];
   }
 }
@@ -264,9 +264,13 @@ void DiagonalLevels::Eliminate(int level, int end) {
 // and orthogonal to the last rows, and stay so when divided by d.
 void DiagonalLevels::Separate() {
   const Block& block = blocks_[0];
-  usual_row_end_ = block.row_end;
+  const int rows = block.row_end - block.row_begin;
   const int others = usual_begin_ - block.begin;
-  if (2 * others > block.end - block.begin) usual_row_end_ = block.row_begin;
+  usual_row_end_ = block.row_begin;
+  // A reflection takes twice the time of a row in FactorRow(). With more variables, it
+  // takes longer than the Gram-Schmidt steps that it saves.
+  if (2 * others > rows) return;
+  usual_row_end_ = block.row_end;
   for (int steps = others; steps > 0; --steps) {
     double squared = 0;
     const int pivot = LargestColumn(block.row_begin, usual_row_end_,
@@ -293,8 +297,8 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
                                   int end, double* squared) {
   if (row_begin >= row_end) return begin;
   double* squares = scratch_.data();
-  kernels::ColumnSquares(&t_[Index(row_begin) + begin], stride_,
-                         row_end - row_begin, end - begin, squares);
+  kernels::ColumnSquares(T(row_begin) + begin, stride_, row_end - row_begin,
+                         end - begin, squares);
   Count(row_end - row_begin, end - begin);
   const double* largest = std::max_element(squares, squares + end - begin);
   *squared = *largest;
@@ -305,7 +309,7 @@ int DiagonalLevels::LargestColumn(int row_begin, int row_end, int begin,
 // except in row `target`. The rows are zero in the columns before `begin`.
 void DiagonalLevels::Reflect(int row_begin, int row_end, int target, int pivot,
                              int begin, int end) {
-  double* first = &t_[Index(row_begin)];
+  double* first = T(row_begin);
   double* v = reflection_.data();
   const int rows = row_end - row_begin;
   for (int i = 0; i < rows; ++i) {
@@ -350,11 +354,10 @@ double DiagonalLevels::FactorRow(int level, int row) {
   const int columns = block.end - block.begin;
   const int i = row - block.row_begin;
   const int usual = level == 0 ? usual_row_end_ - block.row_begin : 0;
-  const int from = level == 0 && RoundsUsual() ? 0 : usual;
-  double* first = &q_[Index(block.row_begin + from)];
-  const size_t at = Index(row);
-  double *q = &q_[at], *l = L(row);
-  const double* t = &t_[at] + block.begin;
+  const int from = usual > 0 && RoundsUsual() ? 0 : usual;
+  double* first = Q(block.row_begin + from);
+  double *q = Q(row), *l = L(row);
+  const double* t = T(row) + block.begin;
   std::fill_n(l, i + 1, 0);
   if (i < usual) {
     const int others = usual_begin_ - block.begin;
@@ -363,7 +366,7 @@ double DiagonalLevels::FactorRow(int level, int row) {
     l[i] = 1 / scale_[usual_begin_];
     return 1;
   }
-  kernels::MultiplyEntries(t, &inverse_scale_[block.begin],
+  kernels::MultiplyEntries(t, inverse_scale_.data() + block.begin,
                            tolerances::kZeroEntry, columns, q);
   const double before = SquaredNorm(q, columns);
   double after = before;
@@ -395,30 +398,29 @@ void DiagonalLevels::SolveLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin, rest = num_free_ - block.end;
   const int rows = block.row_end - block.row_begin;
-  const size_t first = static_cast<size_t>(block.row_begin) * stride_;
-  double* z = &z_[block.row_begin];
-  double* x = &x_[block.begin];
-  Dots(&t_[first] + block.begin, stride_, rows, &ideal_[block.begin], columns,
-       z);
+  double* z = z_.data() + block.row_begin;
+  double* x = x_.data() + block.begin;
+  Dots(T(block.row_begin) + block.begin, stride_, rows,
+       ideal_.data() + block.begin, columns, z);
   std::fill_n(x, columns, 0);
   if (level == 0 && IsSquare()) {
     for (int i = 0; i < rows; ++i) z[i] = -z[i];
-    AddRows(&t_[first] + block.begin, stride_, rows, z, columns, x);
+    AddRows(T(block.row_begin) + block.begin, stride_, rows, z, columns, x);
     for (int p = block.begin; p < block.end; ++p) {
       step_[p] = ideal_[p] + x_[p];
       x_[p] *= scale_[p];
     }
     return;
   }
-  Dots(&t_[first] + block.end, stride_, rows, &step_[block.end], rest,
-       scratch_.data());
+  Dots(T(block.row_begin) + block.end, stride_, rows, step_.data() + block.end,
+       rest, scratch_.data());
   for (int i = 0; i < rows; ++i) {
     const double* l = L(block.row_begin + i);
     double value;
     Dots(l, 0, 1, z, i, &value);
     z[i] = l[i] == 0 ? 0 : (-z[i] - scratch_[i] - value) / l[i];
   }
-  AddRows(&q_[first], stride_, rows, z, columns, x);
+  AddRows(Q(block.row_begin), stride_, rows, z, columns, x);
   for (int p = block.begin; p < block.end; ++p) {
     step_[p] = ideal_[p] + x_[p] * inverse_scale_[p];
   }
@@ -444,14 +446,14 @@ void DiagonalLevels::FindMultipliers(int level) {
     largest = std::max(largest, std::abs(gradient_[p]));
   }
   const int rows = block.row_end - block.row_begin;
-  double *z = &z_[block.row_begin], *nu = &nu_[block.row_begin];
+  double *z = z_.data() + block.row_begin, *nu = nu_.data() + block.row_begin;
   if (level == 0 && IsSquare()) {
     for (int p = block.begin; p < block.end; ++p) {
       scratch_[p - block.begin] = -scale_[p] * x_[p];
       weight = std::max(weight, weight_[order_[p]]);
     }
-    Dots(&t_[Index(block.row_begin)] + block.begin, stride_, rows,
-         scratch_.data(), rows, nu);
+    Dots(T(block.row_begin) + block.begin, stride_, rows, scratch_.data(), rows,
+         nu);
     Count(rows, rows);
   } else {
     for (int i = rows - 1; i >= 0; --i) {
@@ -476,8 +478,9 @@ double DiagonalLevels::Dual(const LexicographicFactorization& leading,
   // T' nu, and the gradient on fixed variables.
   double* sum = direction_.data();
   std::fill_n(sum, n_, 0);
-  AddRows(&t_[Index(block.row_begin)] + block.begin, stride_, rows,
-          &nu_[block.row_begin], num_free_ - block.begin, sum + block.begin);
+  AddRows(T(block.row_begin) + block.begin, stride_, rows,
+          nu_.data() + block.row_begin, num_free_ - block.begin,
+          sum + block.begin);
   for (int p = num_free_; p < n_; ++p) {
     if (level_of_[order_[p]] == level) sum[p] = -gradient_[p];
   }

@@ -119,9 +119,11 @@ class DiagonalLevels {
   std::size_t Index(int row) const {
     return static_cast<std::size_t>(row) * stride_;
   }
+  double* T(int row) { return t_.data() + Index(row); }
+  double* Q(int row) { return q_.data() + Index(row); }
   /// Row of L. It has row + 1 entries at most, because L is lower triangular.
   double* L(int row) {
-    return &l_[static_cast<std::size_t>(row) * (row + 1) / 2];
+    return l_.data() + static_cast<std::size_t>(row) * (row + 1) / 2;
   }
   void FindGradient(int position, const double* y);
   /// After Tie(): whether the rows leave the first level's variables no freedom. The

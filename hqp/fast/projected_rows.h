@@ -63,8 +63,10 @@ class ProjectedRows {
   int size() const { return size_; }
 
  private:
-  double* remainder(int slot) { return &remainder_[Index(slot, stride_)]; }
-  double* coefficients(int e) { return &l_[Index(e, slot_stride_)]; }
+  double* remainder(int slot) {
+    return remainder_.data() + Index(slot, stride_);
+  }
+  double* coefficients(int e) { return l_.data() + Index(e, slot_stride_); }
   static std::size_t Index(int i, int stride) {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride);
   }

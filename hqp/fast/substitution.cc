@@ -36,8 +36,7 @@ void LexicographicFactorization::FindResiduals(const Level& level) {
     Dots(row(first), stride_, rows, packed_.data(), n_, residual);
     Count(rows, n_);
   } else {
-    Dots(&l_[static_cast<size_t>(first) * stride_], stride_, rows, z_.data(),
-         level.rank_end, residual);
+    Dots(l_row(first), stride_, rows, z_.data(), level.rank_end, residual);
   }
   for (int i = 0; i < rows; ++i) residual[i] -= target_[first + i];
 }
@@ -51,8 +50,7 @@ void LexicographicFactorization::SolveRows(const Level& level,
   if (level.deficient) {
     // H D (t - L z), where z is known.
     double* right = factor_.data();
-    Dots(&l_[static_cast<size_t>(first) * stride_], stride_, rows, z,
-         level.rank_begin, right);
+    Dots(l_row(first), stride_, rows, z, level.rank_begin, right);
     for (int i = 0; i < rows; ++i) {
       right[i] = metric_[first + i] * (target[i] - right[i]);
     }
@@ -76,7 +74,7 @@ void LexicographicFactorization::SetResiduals(int level, const double* residual,
                                               double size) {
   const Level& of = levels_[level];
   std::copy(residual, residual + of.end_row - of.first_row,
-            &residual_[of.first_row]);
+            residual_.data() + of.first_row);
   KeepUnattainableResiduals(size, of);
 }
 
@@ -88,8 +86,8 @@ void LexicographicFactorization::KeepUnattainableResiduals(double size,
                                                            const Level& level) {
   if (!level.deficient) return;
   const int first = level.first_row, rows = level.end_row - first;
-  double* residual = &residual_[first];
-  const double* metric = &metric_[first];
+  double* residual = residual_.data() + first;
+  const double* metric = metric_.data() + first;
   for (int i = 0; i < rows; ++i) {
     residual[i] *= metric[i];
     factor_[i] = tolerances::kZeroResidual * metric[i] * size;
@@ -136,8 +134,7 @@ void LexicographicFactorization::CountTriangle(const Level& level, int begin) {
 
 // Applies the reflection of column e to a vector over the rows of its level.
 void LexicographicFactorization::Reflect(int e, int rows, double* x) const {
-  const double* v =
-      &reflection_[static_cast<size_t>(e) * (reflection_.size() / n_)];
+  const double* v = reflection(e);
   double dot;
   Dots(v, 0, 1, x, rows, &dot);
   dot = -dot;
@@ -228,8 +225,7 @@ void LexicographicFactorization::SolveDual(int level, double* rhs, double* nu) {
       nu[first + i] *= metric_[first + i];
       factor_[i] = -nu[first + i];
     }
-    AddRows(&l_[static_cast<size_t>(first) * stride_], stride_, rows,
-            factor_.data(), begin, rhs);
+    AddRows(l_row(first), stride_, rows, factor_.data(), begin, rhs);
   }
 }
 

@@ -57,11 +57,12 @@ class SelfCollisionTask final : public Task {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     Eigen::Vector3d a = Eigen::Vector3d::Zero();
   };
-  // Numbers of a tick that hold for all pairs. Pairs have no row if balls around
-  // them are farther apart than `far`, m.
+  // Numbers of a tick that hold for all pairs.
   struct Common {
-    double max_speed;          // Upper bound of |ḋ|, m/s.
     double looseness_of_arms;  // 0 (strict) to 1 (no rows).
+    // A pair at this distance has no row, in whichever direction it moves, m.
+    double loose;
+    // A pair has no row if balls around its bodies are this far apart, m.
     double far;
   };
   // The bound of a pair in a tick.
