@@ -17,8 +17,9 @@ class Certifier {
   Certifier(int num_variables, const std::vector<LevelCapacity>& capacity);
 
   /// Certifies all levels, or those above solution.failed_level if there is
-  /// one. Does not read solution.certificate. Cost: about 4 n flops per row,
-  /// and 4 n per nonzero multiplier. A level that cannot be met takes up to four
+  /// one. Does not read solution.certificate. Cost: about 6 flops for each
+  /// entry in the span of a row, 4 more in equalities and violated rows, and 4 for each
+  /// entry and nonzero multiplier. A level that cannot be met takes up to four
   /// more products of y or a direction with its rows, and with those above. Does not
   /// allocate.
   Certificate Certify(const Hierarchy& hierarchy,
@@ -28,8 +29,9 @@ class Certifier {
   void Certify(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
   /// After Certify() or Truncate(): how far the cost of a level may be above its
-  /// optimum, given the levels above. This is the whole cost for the first level that
-  /// is not certified, and infinite below it. It holds for all optima of the levels
+  /// optimum, given the levels above, in the unit of the cost. After Truncate(), this is
+  /// the whole cost for failed_level, and infinite below it; after Certify(), it is
+  /// infinite from failed_level on. It holds for all optima of the levels
   /// above that are no farther from y than 2 (|y| + largest distance from y = 0 of an
   /// equality or violated row, up to this level), if y meets these levels but for
   /// rounding: multipliers at y stand for those at the optimum. It contains the rounding
@@ -40,9 +42,9 @@ class Certifier {
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
   static constexpr double kCertified = 1e-9;
 
-  /// Certifies the answer and stores its certificate and gaps in it. While worst()
-  /// exceeds kCertified, sets the status to kIterationLimit and moves
-  /// failed_level one level up, towards level 0.
+  /// Certifies the levels up to failed_level in order, and stores certificate and gaps in
+  /// the answer. The first level with which worst() exceeds kCertified becomes
+  /// failed_level, and the status kIterationLimit.
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:

@@ -64,7 +64,8 @@ struct InequalityBlock {
 /// clears the hierarchy and adds the blocks again.
 class Hierarchy {
  public:
-  /// Allocates memory for all levels at their capacity.
+  /// Allocates memory for all levels at their capacity. Throws std::invalid_argument if
+  /// a number is negative, as does the next constructor.
   Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);
 
   /// Allocates memory for `total` rows, which the levels share. If that is less
@@ -81,10 +82,11 @@ class Hierarchy {
   /// of these rows (asserted).
   void Clear(int num_levels) noexcept;
 
-  /// Removes all rows as well, and level k may get at most rows[k].
+  /// Removes all rows as well, and level k may get at most rows[k], k < num_levels.
+  /// pre: there is memory for all of these rows (asserted).
   void Clear(int num_levels, const LevelCapacity* rows) noexcept;
 
-  /// Returns the next rows of a level: B and C zero, weights 1, bounds
+  /// Returns the next rows of a level: B, b and C zero, weights 1, bounds
   /// infinite. Valid until Clear(). pre: the level gets at most the rows that
   /// Clear() allows (asserted).
   EqualityBlock AddEqualities(int level, int rows) noexcept;

@@ -101,9 +101,11 @@ struct Solution {
   void Reset(const Hierarchy& hierarchy) noexcept;
 
   Status status;
-  int failed_level;  ///< First level without an optimum; -1 if optimal.
-  int iterations;
-  Eigen::VectorXd y;
+  /// First level without an optimum, or with invalid numbers; the number of levels if
+  /// only the minimum norm is missing; -1 if optimal.
+  int failed_level;
+  int iterations;     ///< Factorisations and updates of the search.
+  Eigen::VectorXd y;  ///< num_variables; the shortest one of all optima.
   std::vector<LevelSolution> levels;
 
   /// Certificate of the levels above failed_level, or of all levels. Each

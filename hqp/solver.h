@@ -23,7 +23,8 @@ class Solver {
 
   /// Allocates less memory.
   /// @param max_leading_rows  largest number of rows of all levels together,
-  ///     without the last levels whose rows have one variable each. This number
+  ///     without the last levels that have no inequalities and whose rows have one
+  ///     variable each. Solve() returns kBadInput if there are more. This number
   ///     determines the memory, about 24 n bytes a row. The capacity of each
   ///     level costs little.
   Solver(int num_variables, const std::vector<LevelCapacity>& capacity,
@@ -55,7 +56,8 @@ class Solver {
   /// or updates them; the first may factor them several times.
   /// Solution::iterations is the number used. One more factorisation may follow, to
   /// write the answer of a search that did not finish. In that case the levels above
-  /// failed_level are optimal, and y is the best found for failed_level.
+  /// failed_level are optimal, and y is the best of the points that the search compares
+  /// when it ends (docs/limits.md).
   int max_iterations = 500;
 
   /// Whether to find LevelSolution::nullity, which takes another factorisation
@@ -74,6 +76,8 @@ class Solver {
   /// makes a replay inexact; a limit of iterations does not. It changes the order
   /// of the search, and allows two iterations, as max_modelled_seconds does.
   double max_seconds = 0;
+  /// Returns a time that never decreases [s]. Solve() calls it at each iteration, so it
+  /// must not throw.
   std::function<double()> now;
 
  private:

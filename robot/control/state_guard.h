@@ -18,8 +18,8 @@ class StateGuard {
   void Reset() noexcept;
 
   /// Checks the state of a new tick, dt seconds after the last one. A time
-  /// stamp may stand still for 10 ms; a jump in time is a clock reset, and a
-  /// time stamp that is not finite counts as a frozen clock.
+  /// stamp may stand still for 10 ms; a jump in time is a clock reset. A
+  /// time stamp that is not finite gives kState, and kClock after 10 ms.
   /// @return kNone, kClock or kState.
   [[nodiscard]] FailSafeReason Check(double dt, const State& state) noexcept;
 
