@@ -141,29 +141,47 @@ void Certifier::AddToGradient(const double* rows, const Span* spans,
 
 void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
                           const Solution& solution, Certificate* certificate) {
-  const auto B = hierarchy.B(level), C = hierarchy.C(level);
-  const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
-  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-  const LevelSolution& answer = solution.levels[level];
-  LevelRows& rows = rows_[level];
-  const double norm_y = solution.y.norm();
   gradient_.setZero();
   gradient_size_.setZero();
   num_terms_ = 0;
-  double cost = 0, cost_size = 0, cost_rounding = 0, slack_rounding = 0;
-  double feasibility = certificate->feasibility;
   const int n = hierarchy.num_variables();
-  // A wrong span would hide entries from the solver as well, so the certificate
-  // does not trust spans.
-  const Span *B_span = hierarchy.B_span(level),
-             *C_span = hierarchy.C_span(level);
   const int equalities = hierarchy.num_equalities(level);
   const int inequalities = hierarchy.num_inequalities(level);
+  // A wrong span would hide entries from the solver as well, so the certificate
+  // does not trust spans.
   const bool has_right_spans =
-      AreZeroOutside(B.data(), n, B_span, equalities) &&
-      AreZeroOutside(C.data(), n, C_span, inequalities);
-  SumRows(B.data(), n, B_span, equalities, solution.y.data(), sums_.data());
-  for (int i = 0; i < equalities; ++i) {
+      AreZeroOutside(hierarchy.B(level).data(), n, hierarchy.B_span(level),
+                     equalities) &&
+      AreZeroOutside(hierarchy.C(level).data(), n, hierarchy.C_span(level),
+                     inequalities);
+  CostSums sums;
+  JudgeEqualities(hierarchy, level, solution, &sums);
+  JudgeInequalities(hierarchy, level, solution, &sums);
+  slack_rounding_[level] = std::sqrt(sums.slack_rounding);
+  cost_[level] = sums.cost;
+  cost_size_[level] = sums.size;
+  cost_rounding_[level] =
+      sums.rounding + (equalities + inequalities + 2) * kEpsilon * sums.cost;
+  certificate->feasibility =
+      has_right_spans ? Worse(certificate->feasibility, sums.feasibility)
+                      : kInfinity;
+  certificate->priority =
+      Worse(certificate->priority,
+            Ratio(sums.cost - solution.levels[level].cost,
+                  sums.cost + tolerances::kZeroCost * sums.size));
+}
+
+void Certifier::JudgeEqualities(const Hierarchy& hierarchy, int level,
+                                const Solution& solution, CostSums* of_level) {
+  const auto B = hierarchy.B(level);
+  const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
+  const Span* spans = hierarchy.B_span(level);
+  const int count = hierarchy.num_equalities(level);
+  LevelRows& rows = rows_[level];
+  CostSums all = *of_level;
+  SumRows(B.data(), hierarchy.num_variables(), spans, count, solution.y.data(),
+          sums_.data());
+  for (int i = 0; i < count; ++i) {
     const RowSums& sums = sums_[i];
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
@@ -172,19 +190,34 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
       farthest_ = std::max(farthest_,
                            std::abs(b[i]) / std::sqrt(sums.squared_row_norm));
     }
-    feasibility =
-        Worse(feasibility, Ratio(residual - answer.equality_residual[i], size));
-    cost += weight[i] * residual * residual / 2;
-    cost_size += weight[i] * size * size / 2;
-    const double rounding = RowSumRounding(B_span[i].size) * size;
-    cost_rounding += weight[i] * (std::abs(residual) + rounding / 2) * rounding;
-    slack_rounding += weight[i] * rounding * rounding;
+    all.feasibility = Worse(
+        all.feasibility,
+        Ratio(residual - solution.levels[level].equality_residual[i], size));
+    all.cost += weight[i] * residual * residual / 2;
+    all.size += weight[i] * size * size / 2;
+    const double rounding = RowSumRounding(spans[i].size) * size;
+    all.rounding += weight[i] * (std::abs(residual) + rounding / 2) * rounding;
+    all.slack_rounding += weight[i] * rounding * rounding;
     factor_[i] = weight[i] * residual;
     size_[i] = weight[i] * size;
   }
-  AddToGradient(B.data(), B_span, equalities);
-  SumRows(C.data(), n, C_span, inequalities, solution.y.data(), sums_.data());
-  for (int i = 0; i < inequalities; ++i) {
+  *of_level = all;
+  AddToGradient(B.data(), spans, count);
+}
+
+void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
+                                  const Solution& solution,
+                                  CostSums* of_level) {
+  const auto C = hierarchy.C(level);
+  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+  const Span* spans = hierarchy.C_span(level);
+  const int count = hierarchy.num_inequalities(level);
+  const double norm_y = solution.y.norm();
+  LevelRows& rows = rows_[level];
+  CostSums all = *of_level;
+  SumRows(C.data(), hierarchy.num_variables(), spans, count, solution.y.data(),
+          sums_.data());
+  for (int i = 0; i < count; ++i) {
     const RowSums& sums = sums_[i];
     const double value = sums.product;
     const bool at_upper = value - upper[i] >= lower[i] - value;
@@ -199,29 +232,22 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
     rows.size[i] =
         std::isinf(bound) ? 0 : rows.norm[i] * norm_y + std::abs(bound);
     const double slack = std::max(violation, 0.0);
-    feasibility = Worse(feasibility, Ratio(slack - answer.slack[i], size));
-    cost += slack * slack / 2;
-    cost_size += size * size / 2;
-    const double rounding = RowSumRounding(C_span[i].size) * size;
+    all.feasibility = Worse(
+        all.feasibility, Ratio(slack - solution.levels[level].slack[i], size));
+    all.cost += slack * slack / 2;
+    all.size += size * size / 2;
+    const double rounding = RowSumRounding(spans[i].size) * size;
     rows.rounding[i] = rounding;
-    cost_rounding += (slack + rounding / 2) * rounding;
-    slack_rounding += rounding * rounding;
+    all.rounding += (slack + rounding / 2) * rounding;
+    all.slack_rounding += rounding * rounding;
     if (violation > 0 && rows.norm[i] > 0) {
       farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
     }
     factor_[i] = at_upper ? slack : -slack;
     size_[i] = violation > 0 ? size : 0;
   }
-  AddToGradient(C.data(), C_span, inequalities);
-  slack_rounding_[level] = std::sqrt(slack_rounding);
-  cost_[level] = cost;
-  cost_size_[level] = cost_size;
-  cost_rounding_[level] =
-      cost_rounding + (equalities + inequalities + 2) * kEpsilon * cost;
-  certificate->feasibility = has_right_spans ? feasibility : kInfinity;
-  certificate->priority = Worse(
-      certificate->priority,
-      Ratio(cost - answer.cost, cost + tolerances::kZeroCost * cost_size));
+  *of_level = all;
+  AddToGradient(C.data(), spans, count);
 }
 
 void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,

@@ -58,10 +58,24 @@ class Certifier {
     Eigen::VectorXd rounding;  ///< Largest error of the violation by rounding.
     std::vector<Side> side;    ///< The nearer bound.
   };
+  /// Sums over the rows of a level.
+  struct CostSums {
+    double cost = 0;
+    double size = 0;      ///< Cost of the magnitudes of its terms.
+    double rounding = 0;  ///< Of the cost.
+    /// Sum of weight times rounding^2 of all residuals and slacks.
+    double slack_rounding = 0;
+    double feasibility = 0;  ///< See Certificate.
+  };
   void StoreGaps(int num_levels, Solution* solution) const;
   void AddToGradient(const double* rows, const Span* spans, int count);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
+  /// Judge the rows of a level, and add them to its sums.
+  void JudgeEqualities(const Hierarchy& hierarchy, int level,
+                       const Solution& solution, CostSums* of_level);
+  void JudgeInequalities(const Hierarchy& hierarchy, int level,
+                         const Solution& solution, CostSums* of_level);
   void JudgeMultipliers(const Hierarchy& hierarchy, int level,
                         const Solution& solution, Certificate* certificate);
   void JudgeLevel(const Hierarchy& hierarchy, int level,

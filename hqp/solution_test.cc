@@ -19,6 +19,7 @@ void ExpectAsConstructed(const Solution& solution, int num_variables) {
   EXPECT_EQ(solution.iterations, 0);
   EXPECT_EQ(solution.y.size(), num_variables);
   EXPECT_TRUE(solution.y.isZero(0));
+  EXPECT_EQ(solution.certificate.worst(), 0);
   for (const LevelSolution& level : solution.levels) {
     EXPECT_EQ(level.cost, 0);
     EXPECT_EQ(level.gap, kInfinity);
@@ -26,6 +27,7 @@ void ExpectAsConstructed(const Solution& solution, int num_variables) {
     EXPECT_TRUE(level.slack.isZero(0));
     for (const Side side : level.active) EXPECT_EQ(side, Side::kNone);
     EXPECT_EQ(level.nullity, num_variables);
+    EXPECT_EQ(level.traded_level, -1);
     for (const LevelMultipliers& multipliers : level.multipliers) {
       EXPECT_TRUE(multipliers.equality.isZero(0));
       EXPECT_TRUE(multipliers.inequality.isZero(0));
@@ -45,7 +47,7 @@ void FillWithSevens(Solution* solution) {
     level.equality_residual.setConstant(7);
     level.slack.setConstant(7);
     level.active.assign(level.active.size(), Side::kUpper);
-    level.nullity = 7;
+    level.nullity = level.traded_level = 7;
     for (LevelMultipliers& multipliers : level.multipliers) {
       multipliers.equality.setConstant(7);
       multipliers.inequality.setConstant(7);
@@ -100,6 +102,19 @@ TEST(Solution, InitialisesAllMembers) {
   Solution* solution = new (memory) Solution(2, {{0, 0}, {0, 0}});
   ExpectAsConstructed(*solution, 2);
   solution->~Solution();
+}
+
+TEST(CertificateNumbers, TheWorstIsInfiniteIfOneIsNaN) {
+  for (double Certificate::*number :
+       {&Certificate::stationarity, &Certificate::feasibility,
+        &Certificate::complementarity, &Certificate::priority}) {
+    Certificate certificate;
+    EXPECT_EQ(certificate.worst(), 0);
+    certificate.*number = 1e-3;
+    EXPECT_EQ(certificate.worst(), 1e-3);
+    certificate.*number = kNan;
+    EXPECT_EQ(certificate.worst(), kInfinity);
+  }
 }
 
 TEST(EvaluateLevel, AgreesWithNumbersByHand) {

@@ -231,8 +231,7 @@ void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   problem_.LeaveOutUnsolved();
   problem_.SetSolution(hierarchy, search_.y());
   FindMultipliers(hierarchy);
-  writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
-                solution);
+  writer_.Write(hierarchy, side_, &problem_, solution);
   certifier_.Truncate(hierarchy, solution);
   if (solution->status == Status::kOptimal) {
     // No search has shown that y is the shortest one.
@@ -266,7 +265,10 @@ bool Solver::Impl::AddViolated(const Hierarchy& hierarchy, bool adds) {
       const double above = value_[i] - upper[i];
       const double below = lower[i] - value_[i];
       Side& side = side_[level][i];
-      if ((above <= 0 && below <= 0) || side != Side::kNone) continue;
+      if ((above <= 0 && below <= 0) || side != Side::kNone ||
+          problem_.norm(level, i) == 0) {
+        continue;
+      }
       const double* row = hierarchy.C(level).data() + i * n_;
       const double bound = above > 0 ? upper[i] : lower[i];
       const auto is_violated = [&] {
@@ -290,8 +292,7 @@ bool Solver::Impl::AddViolated(const Hierarchy& hierarchy, bool adds) {
 // failed_level are certified.
 bool Solver::Impl::WriteSolution(const Hierarchy& hierarchy,
                                  Solution* solution) {
-  writer_.Write(hierarchy, side_, tolerances::kZeroMultiplier, &problem_,
-                solution);
+  writer_.Write(hierarchy, side_, &problem_, solution);
   certifier_.Certify(hierarchy, solution);
   return solution->certificate.worst() <= Certifier::kCertified;
 }

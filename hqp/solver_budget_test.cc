@@ -326,7 +326,7 @@ TEST(SolverBudget, CertifiedLevelsAreNoWorseThanTheLastWorkingSet) {
 // better one. If the rows change as well, docs/limits.md says how often it fails.
 TEST(SolverBudget, IsNoWorseThanTheLastWorkingSet) {
   Judged judged;
-  for (int seed = 0; seed < 200; ++seed) {
+  for (int seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE(seed);
     const HierarchyCase drawn = DrawNeighbors(seed).drawn;
     JudgeStopped(drawn, WithMovedBounds(drawn, seed), 1, &judged);

@@ -435,6 +435,29 @@ TEST(Solver, RepeatsBitForBitAfterASearchThatWasCutOff) {
   }
 }
 
+// No y changes the violation of a row of zeros, so that the search leaves it alone.
+TEST(Solver, ARowOfZerosThatCannotBeMetTakesNoIteration) {
+  const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
+  int iterations[2] = {};
+  for (const bool has_zeros : {false, true}) {
+    Hierarchy hierarchy(2, capacity);
+    InequalityBlock rows = hierarchy.AddInequalities(0, 2);
+    rows.C(0, 0) = 1;
+    rows.upper << 1, (has_zeros ? -1 : 1);
+    EqualityBlock target = hierarchy.AddEqualities(1, 2);
+    target.B.setIdentity();
+    target.b << -3, -2;
+    Solver solver(2, capacity);
+    Solution solution(2, capacity);
+    EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    EXPECT_EQ(solution.y, Eigen::Vector2d(1, 2));
+    EXPECT_EQ(solution.levels[0].slack[1], has_zeros ? 1 : 0);
+    EXPECT_EQ(solution.levels[0].active[1], Side::kNone);
+    iterations[has_zeros ? 1 : 0] = solution.iterations;
+  }
+  EXPECT_EQ(iterations[1], iterations[0]);
+}
+
 TEST(Solver, SolvesAHierarchyWithoutVariables) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 0}};
   Hierarchy hierarchy(0, capacity);

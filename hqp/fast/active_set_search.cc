@@ -412,21 +412,22 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   return true;
 }
 
-// Turns the rows that are violated at the optimum of their own level into
-// equalities. Resets the number of removals left of all other rows.
+// Turns the rows of a level that are violated at its optimum into equalities. Allows all
+// removals again of the other rows, up to this level.
 void ActiveSetSearch::FreezeViolated(
     int level, const WorkingSetProblem& problem,
     const std::vector<std::vector<Side>>& side) {
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     const WorkingSetProblem::Row& row = problem.row(a);
-    if (!row.is_inequality) continue;
-    const RowIndex index = {row.level, row.index};
-    if (row.level == level &&
+    if (row.is_inequality && row.level == level &&
         problem.Multiplier(a, level, side[level][row.index],
                            tolerances::kZeroMultiplier) > 0) {
-      removals_.Freeze(index);
+      removals_.Freeze({row.level, row.index});
     }
-    removals_.Renew(index);
+  }
+  for (int above = 0; above <= level; ++above) {
+    const int rows = static_cast<int>(side[above].size());
+    for (int i = 0; i < rows; ++i) removals_.Renew({above, i});
   }
 }
 

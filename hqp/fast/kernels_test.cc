@@ -153,6 +153,17 @@ TEST_F(KernelsTest, RotateMixesTwoVectors) {
   });
 }
 
+TEST_F(KernelsTest, RotatePairRotatesTwoNeighbours) {
+  double x[] = {7, -2, 3, 11};
+  kernels::RotatePair(0.6, 0.8, x + 1);
+  double expected[] = {-2, 3};
+  kernels::Rotate(0.6, 0.8, 1, &expected[0], &expected[1]);
+  EXPECT_EQ(x[0], 7);
+  EXPECT_DOUBLE_EQ(x[1], expected[0]);
+  EXPECT_DOUBLE_EQ(x[2], expected[1]);
+  EXPECT_EQ(x[3], 11);
+}
+
 TEST_F(KernelsTest, AddRowsIsTheSumOfScaledRows) {
   ForAllSizes([&](int rows, int n) {
     std::vector<double> sum = x_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "poise/hqp/fast/lexicographic_factorization.h"
+#include "poise/hqp/fast/tolerances.h"
 #include "poise/hqp/tolerances.h"
 
 namespace poise {
@@ -19,8 +20,7 @@ MultiplierWriter::MultiplierWriter(int num_variables)
 
 void MultiplierWriter::Write(const Hierarchy& hierarchy,
                              const std::vector<std::vector<Side>>& side,
-                             double tolerance, WorkingSetProblem* problem,
-                             Solution* solution) {
+                             WorkingSetProblem* problem, Solution* solution) {
   std::copy(problem->y().begin(), problem->y().end(), solution->y.data());
   norm_y_ = solution->y.norm();
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
@@ -46,7 +46,7 @@ void MultiplierWriter::Write(const Hierarchy& hierarchy,
     LevelSolution& of = solution->levels[level];
     of.traded_level = problem->FindTradeOff(level, of.trade_off.data());
   }
-  MakeNonnegative(hierarchy, tolerance, *problem, solution);
+  MakeNonnegative(hierarchy, *problem, solution);
   if (finds_nullity) {
     WriteNullity(hierarchy, problem, solution);
   } else {
@@ -130,8 +130,7 @@ double MultiplierWriter::Weight(const WorkingSetProblem& problem,
 // level. Rows are scaled to unit length, so that their coefficients can be
 // compared.
 double MultiplierWriter::Rounding(const WorkingSetProblem& problem,
-                                  const Solution& solution, int level,
-                                  double tolerance) const {
+                                  const Solution& solution, int level) const {
   double largest = 0;
   for (int a = 0; a < problem.leading().num_rows(); ++a) {
     const WorkingSetProblem::Row& row = problem.row(a);
@@ -139,7 +138,7 @@ double MultiplierWriter::Rounding(const WorkingSetProblem& problem,
     largest = std::max(
         largest, row.norm * std::abs(Weight(problem, solution, a, level)));
   }
-  return tolerance * largest;
+  return tolerances::kZeroMultiplier * largest;
 }
 
 // Returns the first level before `level` whose stationarity equation has a
@@ -147,12 +146,11 @@ double MultiplierWriter::Rounding(const WorkingSetProblem& problem,
 // there is none.
 std::pair<int, double> MultiplierWriter::FirstPositiveMultiplier(
     const WorkingSetProblem& problem, const Solution& solution, int a,
-    int level, Side side, double tolerance) const {
+    int level, Side side) const {
   const WorkingSetProblem::Row& row = problem.row(a);
   for (int l = row.level; l < level; ++l) {
     const double weight = Sign(side) * Weight(problem, solution, a, l);
-    if (weight > 0 &&
-        weight * row.norm > Rounding(problem, solution, l, tolerance)) {
+    if (weight > 0 && weight * row.norm > Rounding(problem, solution, l)) {
       return {l, weight};
     }
   }
@@ -163,7 +161,6 @@ std::pair<int, double> MultiplierWriter::FirstPositiveMultiplier(
 // earlier level is positive. Adding a multiple of the earlier level's
 // stationarity equation, which sums to zero, makes it zero.
 void MultiplierWriter::MakeNonnegative(const Hierarchy& hierarchy,
-                                       double tolerance,
                                        const WorkingSetProblem& problem,
                                        Solution* solution) {
   for (int level = 1; level < problem.num_levels(); ++level) {
@@ -182,10 +179,11 @@ void MultiplierWriter::MakeNonnegative(const Hierarchy& hierarchy,
       const Side side = solution->levels[row.level].active[row.index];
       const double mu =
           Sign(side) * of.multipliers[row.level].inequality[row.index];
-      if (mu >= 0 || problem.Multiplier(a, level, side, tolerance) == 0)
+      if (mu >= 0 ||
+          problem.Multiplier(a, level, side, tolerances::kZeroMultiplier) == 0)
         continue;
-      const auto [first, multiplier] = FirstPositiveMultiplier(
-          problem, *solution, a, level, side, tolerance);
+      const auto [first, multiplier] =
+          FirstPositiveMultiplier(problem, *solution, a, level, side);
       if (multiplier == 0) continue;
       AddEquation(hierarchy, first, -mu / multiplier, problem, level, solution);
     }

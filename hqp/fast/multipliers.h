@@ -17,11 +17,11 @@ class MultiplierWriter {
  public:
   explicit MultiplierWriter(int num_variables);
 
-  /// @param tolerance  relative threshold below which a multiplier is zero.
-  /// @param problem    the solved problem; its factorisation and its diagonal
-  ///                   levels may be overwritten.
+  /// Multipliers below tolerances::kZeroMultiplier are zero.
+  /// @param problem  the solved problem; its factorisation and its diagonal
+  ///                 levels may be overwritten.
   void Write(const Hierarchy& hierarchy,
-             const std::vector<std::vector<Side>>& side, double tolerance,
+             const std::vector<std::vector<Side>>& side,
              WorkingSetProblem* problem, Solution* solution);
 
   bool finds_nullity = true;  ///< Solver::finds_nullity.
@@ -33,8 +33,8 @@ class MultiplierWriter {
                                 Solution* solution);
   std::pair<int, double> FirstPositiveMultiplier(
       const WorkingSetProblem& problem, const Solution& solution, int a,
-      int level, Side side, double tolerance) const;
-  void MakeNonnegative(const Hierarchy& hierarchy, double tolerance,
+      int level, Side side) const;
+  void MakeNonnegative(const Hierarchy& hierarchy,
                        const WorkingSetProblem& problem, Solution* solution);
   void AddEquation(const Hierarchy& hierarchy, int from, double factor,
                    const WorkingSetProblem& problem, int to,
@@ -45,7 +45,7 @@ class MultiplierWriter {
   double Weight(const WorkingSetProblem& problem, const Solution& solution,
                 int a, int level) const;
   double Rounding(const WorkingSetProblem& problem, const Solution& solution,
-                  int level, double tolerance) const;
+                  int level) const;
   void WriteNullity(const Hierarchy& hierarchy, WorkingSetProblem* problem,
                     Solution* solution);
   bool IsViolated(const WorkingSetProblem::Row& row,

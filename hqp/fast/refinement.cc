@@ -31,17 +31,15 @@ double WorkingSetProblem::Size() const {
 // the largest ratio of the two among rows whose residual should be zero.
 double WorkingSetProblem::ComputeRowResiduals(const Hierarchy& hierarchy) {
   double worst = 0;
-  for (int level = 0; level < num_leading_; ++level) {
-    for (int a = leading_.first_row(level); a < leading_.end_row(level); ++a) {
-      const Row& row = rows_[a];
-      double value, size;
-      const int first = row.span.first;
-      kernels::DotWithSize(Original(hierarchy, row) + first, y_.data() + first,
-                           row.span.size, &value, &size);
-      row_residual_[a] = (row.bound - value) / row.norm;
-      size_[a] = (std::abs(row.bound) + size) / row.norm;
-      worst = std::max(worst, RelativeResidual(a));
-    }
+  for (int a = 0; a < leading_.num_rows(); ++a) {
+    const Row& row = rows_[a];
+    double value, size;
+    const int first = row.span.first;
+    kernels::DotWithSize(Original(hierarchy, row) + first, y_.data() + first,
+                         row.span.size, &value, &size);
+    row_residual_[a] = (row.bound - value) / row.norm;
+    size_[a] = (std::abs(row.bound) + size) / row.norm;
+    worst = std::max(worst, RelativeResidual(a));
   }
   return worst;
 }
