@@ -62,7 +62,7 @@ class Certifier {
   struct CostSums {
     double cost = 0;
     double size = 0;      ///< Cost of the magnitudes of its terms.
-    double rounding = 0;  ///< Of the cost.
+    double rounding = 0;  ///< Rounding of the cost.
     /// Sum of weight times rounding^2 of all residuals and slacks.
     double slack_rounding = 0;
     double feasibility = 0;  ///< See Certificate.
