@@ -172,13 +172,13 @@ void Certifier::JudgeRows(const Hierarchy& hierarchy, int level,
 }
 
 void Certifier::JudgeEqualities(const Hierarchy& hierarchy, int level,
-                                const Solution& solution, CostSums* of_level) {
+                                const Solution& solution, CostSums* total) {
   const auto B = hierarchy.B(level);
   const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
   const Span* spans = hierarchy.B_span(level);
   const int count = hierarchy.num_equalities(level);
   LevelRows& rows = rows_[level];
-  CostSums all = *of_level;
+  CostSums level_sums = *total;
   SumRows(B.data(), hierarchy.num_variables(), spans, count, solution.y.data(),
           sums_.data());
   for (int i = 0; i < count; ++i) {
@@ -190,31 +190,31 @@ void Certifier::JudgeEqualities(const Hierarchy& hierarchy, int level,
       farthest_ = std::max(farthest_,
                            std::abs(b[i]) / std::sqrt(sums.squared_row_norm));
     }
-    all.feasibility = Worse(
-        all.feasibility,
+    level_sums.feasibility = Worse(
+        level_sums.feasibility,
         Ratio(residual - solution.levels[level].equality_residual[i], size));
-    all.cost += weight[i] * residual * residual / 2;
-    all.size += weight[i] * size * size / 2;
+    level_sums.cost += weight[i] * residual * residual / 2;
+    level_sums.size += weight[i] * size * size / 2;
     const double rounding = RowSumRounding(spans[i].size) * size;
-    all.rounding += weight[i] * (std::abs(residual) + rounding / 2) * rounding;
-    all.slack_rounding += weight[i] * rounding * rounding;
+    level_sums.rounding +=
+        weight[i] * (std::abs(residual) + rounding / 2) * rounding;
+    level_sums.slack_rounding += weight[i] * rounding * rounding;
     factor_[i] = weight[i] * residual;
     size_[i] = weight[i] * size;
   }
-  *of_level = all;
+  *total = level_sums;
   AddToGradient(B.data(), spans, count);
 }
 
 void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
-                                  const Solution& solution,
-                                  CostSums* of_level) {
+                                  const Solution& solution, CostSums* total) {
   const auto C = hierarchy.C(level);
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
   const Span* spans = hierarchy.C_span(level);
   const int count = hierarchy.num_inequalities(level);
   const double norm_y = solution.y.norm();
   LevelRows& rows = rows_[level];
-  CostSums all = *of_level;
+  CostSums level_sums = *total;
   SumRows(C.data(), hierarchy.num_variables(), spans, count, solution.y.data(),
           sums_.data());
   for (int i = 0; i < count; ++i) {
@@ -232,21 +232,22 @@ void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
     rows.size[i] =
         std::isinf(bound) ? 0 : rows.norm[i] * norm_y + std::abs(bound);
     const double slack = std::max(violation, 0.0);
-    all.feasibility = Worse(
-        all.feasibility, Ratio(slack - solution.levels[level].slack[i], size));
-    all.cost += slack * slack / 2;
-    all.size += size * size / 2;
+    level_sums.feasibility =
+        Worse(level_sums.feasibility,
+              Ratio(slack - solution.levels[level].slack[i], size));
+    level_sums.cost += slack * slack / 2;
+    level_sums.size += size * size / 2;
     const double rounding = RowSumRounding(spans[i].size) * size;
     rows.rounding[i] = rounding;
-    all.rounding += (slack + rounding / 2) * rounding;
-    all.slack_rounding += rounding * rounding;
+    level_sums.rounding += (slack + rounding / 2) * rounding;
+    level_sums.slack_rounding += rounding * rounding;
     if (violation > 0 && rows.norm[i] > 0) {
       farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
     }
     factor_[i] = at_upper ? slack : -slack;
     size_[i] = violation > 0 ? size : 0;
   }
-  *of_level = all;
+  *total = level_sums;
   AddToGradient(C.data(), spans, count);
 }
 

@@ -71,11 +71,12 @@ class Certifier {
   void AddToGradient(const double* rows, const Span* spans, int count);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
-  /// Judge the rows of a level, and add them to its sums.
+  /// Judges the equalities of a level: adds them to its sums and its gradient, and sets
+  /// rows_ and farthest_. JudgeInequalities() does so for its inequalities.
   void JudgeEqualities(const Hierarchy& hierarchy, int level,
-                       const Solution& solution, CostSums* of_level);
+                       const Solution& solution, CostSums* total);
   void JudgeInequalities(const Hierarchy& hierarchy, int level,
-                         const Solution& solution, CostSums* of_level);
+                         const Solution& solution, CostSums* total);
   void JudgeMultipliers(const Hierarchy& hierarchy, int level,
                         const Solution& solution, Certificate* certificate);
   void JudgeLevel(const Hierarchy& hierarchy, int level,

@@ -101,11 +101,12 @@ struct Solution {
   void Reset(const Hierarchy& hierarchy) noexcept;
 
   Status status;
-  /// First level without an optimum, or with invalid numbers; the number of levels if
-  /// only the minimum norm is missing; -1 if optimal.
+  /// First level without an optimum, or with invalid numbers; -1 if optimal. If only the
+  /// minimum norm is missing, this is the last level (Solver) or the number of levels
+  /// (Cascade).
   int failed_level;
   int iterations;     ///< Factorisations and updates of the search.
-  Eigen::VectorXd y;  ///< num_variables; the shortest one of all optima.
+  Eigen::VectorXd y;  ///< num_variables; if optimal, the shortest optimum.
   std::vector<LevelSolution> levels;
 
   /// Certificate of the levels above failed_level, or of all levels. Each

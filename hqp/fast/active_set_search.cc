@@ -412,8 +412,9 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   return true;
 }
 
-// Turns the rows of a level that are violated at its optimum into equalities. Allows all
-// removals again of the other rows, up to this level.
+// Turns the rows of a level that are violated at its optimum into equalities. A row
+// without removals left blocks no step, so that later levels could violate it. So all
+// other rows up to this level get their removals again.
 void ActiveSetSearch::FreezeViolated(
     int level, const WorkingSetProblem& problem,
     const std::vector<std::vector<Side>>& side) {

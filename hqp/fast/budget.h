@@ -41,8 +41,8 @@ inline constexpr double kSecondsPerMultiplyAdd = 0.145e-9;
 /// sequences, each the fastest of 32 runs with its rows in the cache. Solves that are modelled
 /// with 250 to 350 us take 0.94 of this time in the median, 90 % between 0.7 and 1.1, and 99 %
 /// less than 1.2. With a budget of 300 us, the longest solve took 397 to 402 us on the machine
-/// of the fit, so the factor must not be smaller, and 315 us on a machine that is a fifth faster
-/// (docs/notebook/2026-11-30-rows-without-calls.md).
+/// of the fit. So the factor must not be smaller. On a machine that is a fifth faster, that
+/// solve took 315 us (docs/notebook/2026-11-30-rows-without-calls.md).
 inline double ModelledSeconds(const Work& work) {
   constexpr double kPerSolve = 1.5e-6, kPerEntry = 5.2e-9, kPerActive = 0.53e-6;
   constexpr double kPerWorkingSet = 5.2e-6, kPerPartOfOne = 1.7e-6;
@@ -58,8 +58,8 @@ inline double ModelledSeconds(const Work& work) {
 class Budget {
  public:
   /// An iteration is interrupted when the solve has taken this multiple of the limit, but for
-  /// the first kAlways ones. Chosen: with 1.02, 1.04, 1.06 and 1.1, recorded robots that stay
-  /// up lose momentum in 22 or 23 ticks (docs/notebook/2026-11-30-rows-without-calls.md).
+  /// the first kAlways ones. The value hardly matters: with 1.02, 1.04, 1.06 and 1.1, recorded
+  /// robots that stay up lose momentum in 22 or 23 ticks (docs/notebook/2026-11-30-rows-without-calls.md).
   static constexpr double kMost = 1.06;
   /// Limits of time allow so many iterations, even if the time is over, and do not interrupt
   /// them: the first finds the start, and the second the direction of a step.

@@ -127,6 +127,7 @@ TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
     EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
   }
   EXPECT_GT(closest, 80);
+  // Rounding differs between builds: 79 with -O3, more than 80 without.
   EXPECT_GT(followed, 70);
 }
 

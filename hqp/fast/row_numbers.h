@@ -63,7 +63,7 @@ class RowNumbers {
  private:
   static constexpr std::int16_t kNoPlace = -1;
   double* At(std::int16_t place) {
-    return &numbers_[static_cast<std::size_t>(place) * size_];
+    return numbers_.data() + static_cast<std::size_t>(place) * size_;
   }
 
   int size_, num_free_ = 0;

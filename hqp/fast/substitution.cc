@@ -182,7 +182,6 @@ double LexicographicFactorization::Gradient(int level, double* gradient) {
   const Level& of = levels_[level];
   // If the levels before determine y, the gradient is a sum of the rows themselves.
   const bool is_determined = IsDetermined(of);
-  const auto& rows = is_determined ? work_ : l_;
   double* sum = is_determined ? packed_.data() : gradient;
   std::fill_n(sum, of.rank_begin, 0);
   double size = 0, largest = 0;
@@ -190,8 +189,8 @@ double LexicographicFactorization::Gradient(int level, double* gradient) {
     if (residual_[a] == 0) continue;
     const double factor = weight(a) * residual_[a];
     size = std::max(size, std::abs(factor));
-    AddRows(&rows[static_cast<std::size_t>(a) * stride_], 0, 1, &factor,
-            of.rank_begin, sum);
+    AddRows(is_determined ? row(a) : l_row(a), 0, 1, &factor, of.rank_begin,
+            sum);
   }
   if (is_determined) ProjectColumns(sum, of.rank_begin, gradient);
   for (int e = 0; e < of.rank_begin; ++e) {

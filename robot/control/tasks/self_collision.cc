@@ -232,15 +232,16 @@ SelfCollisionTask::Common SelfCollisionTask::FindCommon(
     if (joints_[j].type != JointType::kPrismatic) continue;
     travel += std::abs(input.state.q[q_start_ + j]);
   }
-  double max_speed = 0;  // Upper bound of |ḋ|, m/s.
+  Common common{0, LoosenessOfArms(input), 0};
   for (size_t j = 0; j < joints_.size(); ++j) {
     const bool is_slider = joints_[j].type == JointType::kPrismatic;
     const double lever = is_slider ? 1 : lever_[j] + travel;
-    max_speed += lever * std::abs(input.state.v[v_start_ + j]);
+    common.max_speed += lever * std::abs(input.state.v[v_start_ + j]);
   }
-  const double loose =
-      d_min_ + (loosest_ + 2 * omega_ * max_speed) / (omega_ * omega_);
-  return {LoosenessOfArms(input), loose, std::min(kFar * model_.reach, loose)};
+  common.far = std::min(
+      kFar * model_.reach,
+      d_min_ + (loosest_ + 2 * omega_ * common.max_speed) / (omega_ * omega_));
+  return common;
 }
 
 // Most pairs are so far apart that u cannot be below u_max at any direction of
@@ -266,8 +267,13 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(
   const double d_min =
       std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
   bound.closest = ComputePairDistance(model_, pair, X_WB, kSoftness);
-  if (bound.closest.distance >= common.loose) return bound;
   const Vector3d& gradient = bound.closest.gradient;
+  // In whichever direction the bodies move, ḋ is at least -|gradient| max_speed.
+  if (omega_ * omega_ * (bound.closest.distance - d_min) -
+          2 * omega_ * gradient.norm() * common.max_speed >=
+      loosest_) {
+    return bound;
+  }
   double unmodelled = 0;
   const PointMotion A = Relative(input, pair.a, pair.ancestor,
                                  bound.closest.p_A, gradient, &unmodelled);
