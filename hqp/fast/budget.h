@@ -41,8 +41,8 @@ inline constexpr double kSecondsPerMultiplyAdd = 0.145e-9;
 /// sequences, each the fastest of 32 runs with its rows in the cache. Solves that are modelled
 /// with 250 to 350 us take 0.94 of this time in the median, 90 % between 0.7 and 1.1, and 99 %
 /// less than 1.2. With a budget of 300 us, the longest solve took 397 to 402 us on the machine
-/// of the fit. So the factor must not be smaller. On a machine that is a fifth faster, that
-/// solve took 315 us (docs/notebook/2026-11-30-rows-without-calls.md).
+/// of the fit. So the factor must not be smaller. On a faster machine, the longest one took
+/// 315 us (docs/notebook/2026-11-30-rows-without-calls.md).
 inline double ModelledSeconds(const Work& work) {
   constexpr double kPerSolve = 1.5e-6, kPerEntry = 5.2e-9, kPerActive = 0.53e-6;
   constexpr double kPerWorkingSet = 5.2e-6, kPerPartOfOne = 1.7e-6;
