@@ -31,7 +31,14 @@ double Largest(const double* row, int n) {
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
-    : cost_(capacity.size()),
+    : Certifier(num_variables, capacity, NumRows(capacity)) {}
+
+Certifier::Certifier(int num_variables,
+                     const std::vector<LevelCapacity>& capacity,
+                     int max_inequalities)
+    : inequalities_(max_inequalities),
+      first_inequality_(capacity.size()),
+      cost_(capacity.size()),
       cost_size_(capacity.size()),
       cost_rounding_(capacity.size()),
       slack_rounding_(capacity.size()),
@@ -49,15 +56,7 @@ Certifier::Certifier(int num_variables,
   for (const LevelCapacity& level : capacity) {
     most_rows = std::max({most_rows, level.equalities, level.inequalities});
     most_sums = std::max(most_sums, level.equalities + level.inequalities);
-    LevelRows rows;
-    rows.residual.resize(level.equalities);
-    rows.violation.resize(level.inequalities);
-    rows.size.resize(level.inequalities);
-    rows.value.resize(level.inequalities);
-    rows.norm.resize(level.inequalities);
-    rows.rounding.resize(level.inequalities);
-    rows.side.resize(level.inequalities);
-    rows_.push_back(std::move(rows));
+    residual_.emplace_back(level.equalities);
   }
   sums_.resize(most_sums);
   factor_.resize(most_rows);
@@ -177,7 +176,6 @@ void Certifier::JudgeEqualities(const Hierarchy& hierarchy, int level,
   const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
   const Span* spans = hierarchy.B_span(level);
   const int count = hierarchy.num_equalities(level);
-  LevelRows& rows = rows_[level];
   CostSums level_sums = *total;
   SumRows(B.data(), hierarchy.num_variables(), spans, count, solution.y.data(),
           sums_.data());
@@ -185,7 +183,7 @@ void Certifier::JudgeEqualities(const Hierarchy& hierarchy, int level,
     const RowSums& sums = sums_[i];
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
-    rows.residual[i] = residual;
+    residual_[level][i] = residual;
     if (weight[i] > 0 && sums.squared_row_norm > 0) {
       farthest_ = std::max(farthest_,
                            std::abs(b[i]) / std::sqrt(sums.squared_row_norm));
@@ -213,7 +211,11 @@ void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
   const Span* spans = hierarchy.C_span(level);
   const int count = hierarchy.num_inequalities(level);
   const double norm_y = solution.y.norm();
-  LevelRows& rows = rows_[level];
+  first_inequality_[level] = level == 0
+                                 ? 0
+                                 : first_inequality_[level - 1] +
+                                       hierarchy.num_inequalities(level - 1);
+  Inequality* rows = inequalities_.data() + first_inequality_[level];
   CostSums level_sums = *total;
   SumRows(C.data(), hierarchy.num_variables(), spans, count, solution.y.data(),
           sums_.data());
@@ -225,12 +227,12 @@ void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
     const double violation = at_upper ? value - bound : bound - value;
     const double size =
         std::isinf(bound) ? 0 : sums.product_size + std::abs(bound);
-    rows.value[i] = value;
-    rows.norm[i] = std::sqrt(sums.squared_row_norm);
-    rows.side[i] = at_upper ? Side::kUpper : Side::kLower;
-    rows.violation[i] = violation;
-    rows.size[i] =
-        std::isinf(bound) ? 0 : rows.norm[i] * norm_y + std::abs(bound);
+    rows[i].value = value;
+    rows[i].norm = std::sqrt(sums.squared_row_norm);
+    rows[i].side = at_upper ? Side::kUpper : Side::kLower;
+    rows[i].violation = violation;
+    rows[i].size =
+        std::isinf(bound) ? 0 : rows[i].norm * norm_y + std::abs(bound);
     const double slack = std::max(violation, 0.0);
     level_sums.feasibility =
         Worse(level_sums.feasibility,
@@ -238,11 +240,11 @@ void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
     level_sums.cost += slack * slack / 2;
     level_sums.size += size * size / 2;
     const double rounding = RowSumRounding(spans[i].size) * size;
-    rows.rounding[i] = rounding;
+    rows[i].rounding = rounding;
     level_sums.rounding += (slack + rounding / 2) * rounding;
     level_sums.slack_rounding += rounding * rounding;
-    if (violation > 0 && rows.norm[i] > 0) {
-      farthest_ = std::max(farthest_, std::abs(bound) / rows.norm[i]);
+    if (violation > 0 && rows[i].norm > 0) {
+      farthest_ = std::max(farthest_, std::abs(bound) / rows[i].norm);
     }
     factor_[i] = at_upper ? slack : -slack;
     size_[i] = violation > 0 ? size : 0;
@@ -258,7 +260,7 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
   for (int above = 0; above < level; ++above) {
     const LevelMultipliers& multipliers =
         solution.levels[level].multipliers[above];
-    const LevelRows& rows = rows_[above];
+    const Inequality* rows = inequalities(above);
     const auto B = hierarchy.B(above), C = hierarchy.C(above);
     const auto weight = hierarchy.weight(above);
     for (int i = 0; i < B.rows(); ++i) {
@@ -279,17 +281,17 @@ void Certifier::JudgeMultipliers(const Hierarchy& hierarchy, int level,
       if (mu == 0) continue;
       const Span span = hierarchy.C_span(above)[i];
       const double* row = C.row(i).data() + span.first;
-      const double margin = tolerances::kAtBound * rows.size[i];
+      const double margin = tolerances::kAtBound * rows[i].size;
       double wrong;
-      if (rows.violation[i] > margin) {
+      if (rows[i].violation > margin) {
         wrong = 0;
-      } else if (rows.violation[i] < -margin) {
+      } else if (rows[i].violation < -margin) {
         wrong = std::abs(mu);
       } else if (hierarchy.upper(above)[i] - hierarchy.lower(above)[i] <=
                  margin) {
         wrong = 0;  // The row is at both bounds: an equality.
       } else {
-        wrong = rows.side[i] == Side::kUpper ? -mu : mu;
+        wrong = rows[i].side == Side::kUpper ? -mu : mu;
       }
       worst = Worse(worst, std::max(wrong, 0.0) * Largest(row, span.size));
     }

@@ -16,6 +16,11 @@ class Certifier {
  public:
   Certifier(int num_variables, const std::vector<LevelCapacity>& capacity);
 
+  /// Allocates memory for `max_inequalities` inequalities, which the levels share.
+  /// pre: the judged levels of a hierarchy do not have more together.
+  Certifier(int num_variables, const std::vector<LevelCapacity>& capacity,
+            int max_inequalities);
+
   /// Certifies all levels, or those above solution.failed_level if there is
   /// one. Does not read solution.certificate. Cost: about 6 flops for each
   /// entry in the span of a row, 4 more in equalities and violated rows, and 4 for each
@@ -48,15 +53,14 @@ class Certifier {
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:
-  struct LevelRows {
-    Eigen::VectorXd residual;  ///< B y + b.
-    /// Violation of the nearer bound; negative if met.
-    Eigen::VectorXd violation;
-    Eigen::VectorXd size;      ///< |C_i| |y| + |bound|.
-    Eigen::VectorXd value;     ///< C_i y.
-    Eigen::VectorXd norm;      ///< |C_i|.
-    Eigen::VectorXd rounding;  ///< Largest error of the violation by rounding.
-    std::vector<Side> side;    ///< The nearer bound.
+  /// An inequality at y.
+  struct Inequality {
+    double violation;  ///< Of the nearer bound; negative if met.
+    double size;       ///< |C_i| |y| + |bound|.
+    double value;      ///< C_i y.
+    double norm;       ///< |C_i|.
+    double rounding;   ///< Largest error of the violation by rounding.
+    Side side;         ///< The nearer bound.
   };
   /// Sums over the rows of a level.
   struct CostSums {
@@ -67,12 +71,15 @@ class Certifier {
     double slack_rounding = 0;
     double feasibility = 0;  ///< See Certificate.
   };
+  const Inequality* inequalities(int level) const {
+    return inequalities_.data() + first_inequality_[static_cast<size_t>(level)];
+  }
   void StoreGaps(int num_levels, Solution* solution) const;
   void AddToGradient(const double* rows, const Span* spans, int count);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
   /// Judges the equalities of a level: adds them to its sums and its gradient, and sets
-  /// rows_ and farthest_. JudgeInequalities() does so for its inequalities.
+  /// residual_ and farthest_. JudgeInequalities() does so for its inequalities.
   void JudgeEqualities(const Hierarchy& hierarchy, int level,
                        const Solution& solution, CostSums* total);
   void JudgeInequalities(const Hierarchy& hierarchy, int level,
@@ -109,7 +116,9 @@ class Certifier {
                      const Eigen::VectorXd& p, const Solution& solution,
                      double* slope) const;
 
-  std::vector<LevelRows> rows_;
+  std::vector<Eigen::VectorXd> residual_;  ///< By level: B y + b.
+  std::vector<Inequality> inequalities_;   ///< Of all judged levels, in order.
+  std::vector<int> first_inequality_;      ///< By level: where its rows begin.
   std::vector<RowSums> sums_;  ///< By row of one block, or one level.
   /// By row of one block: what AddToGradient() multiplies it with.
   std::vector<double> factor_, size_;

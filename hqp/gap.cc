@@ -148,7 +148,8 @@ double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
 // the nearer bound. At the farther one, it is at most twice as large, but for a small part
 // of the distance.
 bool Certifier::IsInside(int level, int i) const {
-  return rows_[level].violation[i] < -3 * rows_[level].rounding[i];
+  const Inequality& row = inequalities(level)[i];
+  return row.violation < -3 * row.rounding;
 }
 
 // Sharpens change_ of the levels up to `level`: computes their costs in long double,
@@ -223,10 +224,10 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
 double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
                              int i, double mu, double radius, double norm_y,
                              const Solution& solution) const {
-  const LevelRows& rows = rows_[above];
+  const Inequality* rows = inequalities(above);
   // A row with a slack at the optimum as well changes with this slack only.
-  if (rows.violation[i] >
-      tolerances::kAtBound * rows.size[i] + change_[above]) {
+  if (rows[i].violation >
+      tolerances::kAtBound * rows[i].size + change_[above]) {
     return 0;
   }
   const Span span = hierarchy.C_span(above)[i];
@@ -234,8 +235,8 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
       mu > 0 ? hierarchy.upper(above)[i] : hierarchy.lower(above)[i];
   const double side = mu > 0 ? 1 : -1;
   const double size =
-      rows.norm[i] * norm_y + (std::isinf(bound) ? 0 : std::abs(bound));
-  double distance = side * (bound - rows.value[i]);
+      rows[i].norm * norm_y + (std::isinf(bound) ? 0 : std::abs(bound));
+  double distance = side * (bound - rows[i].value);
   double rounding = RowSumRounding(span.size) * size;
   if (std::abs(mu) * rounding > kSharpEnough * CostScale(level)) {
     const long double value =
@@ -244,7 +245,7 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
     rounding = PreciseRounding(span.size) * size;
   }
   return std::abs(mu) *
-         std::min(std::max(distance, 0.0) + rounding, rows.norm[i] * radius);
+         std::min(std::max(distance, 0.0) + rounding, rows[i].norm * radius);
 }
 
 // Finds sums_ along p of the equalities of a level, and then of its inequalities. Without
@@ -274,24 +275,24 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
                              const Solution& solution, const Use& use) const {
   const LevelMultipliers& multipliers =
       solution.levels[level].multipliers[above];
-  const LevelRows& rows = rows_[above];
+  const Inequality* rows = inequalities(above);
   const int equalities = hierarchy.num_equalities(above);
   for (int i = 0; i < equalities; ++i) {
     const double root = std::sqrt(hierarchy.weight(above)[i]);
     if (root == 0) continue;
     const RowSums& sums = sums_[i];
     const double rounding = RowSumRounding(hierarchy.B_span(above)[i].size);
-    use(multipliers.equality[i] / root, root * rows.residual[i],
+    use(multipliers.equality[i] / root, root * residual_[above][i],
         root * sums.product, root * rounding * sums.product_size, 0);
   }
   for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
-    const double slack = std::max(rows.violation[i], 0.0);
+    const double slack = std::max(rows[i].violation, 0.0);
     const double mu = multipliers.inequality[i];
     const bool is_inactive = slack == 0 && mu == 0;
     const RowSums& sums = sums_[equalities + i];
     const double rounding = RowSumRounding(hierarchy.C_span(above)[i].size);
-    use(mu, rows.side[i] == Side::kUpper ? slack : -slack, sums.product,
-        rounding * sums.product_size, is_inactive ? -rows.violation[i] : 0);
+    use(mu, rows[i].side == Side::kUpper ? slack : -slack, sums.product,
+        rounding * sums.product_size, is_inactive ? -rows[i].violation : 0);
   }
 }
 
@@ -368,21 +369,21 @@ double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
                                   hierarchy.B_span(above)[i], of.equality[i]);
       if (changes(sums.product, std::sqrt(sums.squared_row_norm))) return 0;
     }
-    const LevelRows& rows = rows_[above];
+    const Inequality* rows = inequalities(above);
     for (int i = 0; i < hierarchy.num_inequalities(above); ++i) {
       const double along_p =
           change(hierarchy.C(above).row(i).data(), hierarchy.C_span(above)[i],
                  of.inequality[i])
               .product;
-      const double margin = tolerances::kAtBound * rows.size[i];
-      const bool is_inside = rows.violation[i] < -margin;
-      if (along_p == 0 || (!is_inside && !changes(along_p, rows.norm[i]))) {
+      const double margin = tolerances::kAtBound * rows[i].size;
+      const bool is_inside = rows[i].violation < -margin;
+      if (along_p == 0 || (!is_inside && !changes(along_p, rows[i].norm))) {
         continue;
       }
       const double distance = along_p < 0
-                                  ? hierarchy.upper(above)[i] - rows.value[i]
-                                  : rows.value[i] - hierarchy.lower(above)[i];
-      if (distance <= 0 || rows.violation[i] > margin) return 0;
+                                  ? hierarchy.upper(above)[i] - rows[i].value
+                                  : rows[i].value - hierarchy.lower(above)[i];
+      if (distance <= 0 || rows[i].violation > margin) return 0;
       step = std::min(step, distance / std::abs(along_p));
     }
   }

@@ -74,7 +74,7 @@ Solver::Impl::Impl(int num_variables,
       problem_(num_variables, capacity, max_leading_rows, max_kept_rows),
       search_(num_variables, capacity),
       writer_(num_variables),
-      certifier_(num_variables, capacity) {
+      certifier_(num_variables, capacity, max_leading_rows) {
   int most = 0;
   for (const LevelCapacity& level : capacity) {
     side_.emplace_back(level.inequalities, Side::kNone);
