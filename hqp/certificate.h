@@ -55,7 +55,7 @@ class Certifier {
  private:
   /// An inequality at y.
   struct Inequality {
-    double violation;  ///< Of the nearer bound; negative if met.
+    double violation;  ///< Excess over the nearer bound; negative if met.
     double size;       ///< |C_i| |y| + |bound|.
     double value;      ///< C_i y.
     double norm;       ///< |C_i|.
@@ -117,7 +117,7 @@ class Certifier {
                      double* slope) const;
 
   std::vector<Eigen::VectorXd> residual_;  ///< By level: B y + b.
-  std::vector<Inequality> inequalities_;   ///< Of all judged levels, in order.
+  std::vector<Inequality> inequalities_;   ///< All judged levels, in order.
   std::vector<int> first_inequality_;      ///< By level: where its rows begin.
   std::vector<RowSums> sums_;  ///< By row of one block, or one level.
   /// By row of one block: what AddToGradient() multiplies it with.

@@ -7,6 +7,7 @@
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/fast/active_set_search.h"
 #include "poise/hqp/fast/budget.h"
+#include "poise/hqp/fast/cost_order.h"
 #include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/multipliers.h"
 #include "poise/hqp/fast/parametric_search.h"
@@ -119,7 +120,7 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   const bool is_complete = SearchAtOnce(hierarchy, at_once, budget);
   if (budget->is_spent()) {
     const bool goes_back =
-        starts_over && search_.IsBetter(hierarchy, best_y_, search_.y());
+        starts_over && IsBetter(hierarchy, best_y_, search_.y());
     // To factor the rows of this y again would take longer than the limit allows.
     if (goes_back) RecallSearch();
     if (budget->iterations() == 0) {
@@ -131,8 +132,7 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     RememberSearch();
     solution->Reset(hierarchy);
     SearchByLevel(hierarchy, budget, solution);
-    if (budget->is_spent() &&
-        search_.IsBetter(hierarchy, best_y_, search_.y())) {
+    if (budget->is_spent() && IsBetter(hierarchy, best_y_, search_.y())) {
       RecallSearch();
       solution->Reset(hierarchy);
       problem_.Plan(hierarchy, hierarchy.num_levels());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poise/hqp/fast/cost_order.h"
 #include "poise/hqp/fast/kernels.h"
 #include "poise/hqp/fast/tolerances.h"
 
@@ -223,69 +224,6 @@ bool ActiveSetSearch::InitializeAllLevels(
     }
   }
   return true;
-}
-
-bool ActiveSetSearch::IsBetter(const Hierarchy& hierarchy,
-                               const std::vector<double>& y,
-                               const std::vector<double>& other) {
-  for (int level = 0; level < hierarchy.num_levels(); ++level) {
-    const Cost cost = FindCost(hierarchy, level, y);
-    const Cost than = FindCost(hierarchy, level, other);
-    const double difference = std::abs(cost.cost - than.cost);
-    if (difference > tolerances::kZeroSlope * std::max(cost.size, than.size) &&
-        difference > std::max(CostOfRounding(hierarchy, level, y),
-                              CostOfRounding(hierarchy, level, other))) {
-      return cost.cost < than.cost;
-    }
-  }
-  return false;
-}
-
-// Returns the cost of a level that rounding of y can cause. Where the terms of all rows
-// cancel, this is more than rounding of the cost.
-double ActiveSetSearch::CostOfRounding(const Hierarchy& hierarchy, int level,
-                                       const std::vector<double>& y) const {
-  const double rounding =
-      tolerances::kSolutionRounding * kernels::Largest(y.data(), n_);
-  const auto square = [&](const double* row) {
-    const double residual = rounding * kernels::AbsoluteSum(row, n_);
-    return residual * residual;
-  };
-  double sum = 0;
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    sum += hierarchy.weight(level)[i] *
-           square(hierarchy.B(level).data() + static_cast<size_t>(i) * n_);
-  }
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    sum += square(hierarchy.C(level).data() + static_cast<size_t>(i) * n_);
-  }
-  return sum;
-}
-
-ActiveSetSearch::Cost ActiveSetSearch::FindCost(const Hierarchy& hierarchy,
-                                                int level,
-                                                const std::vector<double>& y) {
-  Cost sum = {0, 0};
-  const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
-  const int equalities = hierarchy.num_equalities(level);
-  kernels::SpanDots(hierarchy.B(level).data(), n_, hierarchy.B_span(level),
-                    equalities, y.data(), value_.data());
-  for (int i = 0; i < equalities; ++i) {
-    const double residual = value_[i] + b[i];
-    sum.cost += weight[i] * residual * residual;
-    sum.size += weight[i] * (value_[i] * value_[i] + b[i] * b[i]);
-  }
-  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-  const int rows = hierarchy.num_inequalities(level);
-  kernels::SpanDots(hierarchy.C(level).data(), n_, hierarchy.C_span(level),
-                    rows, y.data(), value_.data());
-  for (int i = 0; i < rows; ++i) {
-    const double slack =
-        std::max({value_[i] - upper[i], lower[i] - value_[i], 0.0});
-    sum.cost += slack * slack;
-    if (slack > 0) sum.size += value_[i] * value_[i];
-  }
-  return sum;
 }
 
 // Finds the bounds outside the working set that y violates. Returns their

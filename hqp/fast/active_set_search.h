@@ -59,11 +59,6 @@ class ActiveSetSearch {
   void Stop(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
             std::vector<std::vector<Side>>* side);
 
-  /// Returns whether y is lexicographically better than another one: its cost
-  /// is lower on the first level on which the costs differ.
-  bool IsBetter(const Hierarchy& hierarchy, const std::vector<double>& y,
-                const std::vector<double>& other);
-
   /// Forgets the last optimum: the next AllAtOnce() follows no path from it.
   void ForgetPath() { path_.Forget(); }
   const std::vector<double>& y() const { return y_; }
@@ -81,9 +76,6 @@ class ActiveSetSearch {
   }
 
  private:
-  struct Cost {
-    double cost, size;  ///< Twice the cost of a level; squares of its terms.
-  };
   struct Blocking {
     Side side = Side::kNone;  ///< kNone: the row does not block.
     double length = 1;        ///< Part of the step up to its bound.
@@ -103,10 +95,6 @@ class ActiveSetSearch {
   bool InitializeAllLevels(const Hierarchy& hierarchy, bool adds_violated,
                            WorkingSetProblem* problem,
                            std::vector<std::vector<Side>>* side);
-  double CostOfRounding(const Hierarchy& hierarchy, int level,
-                        const std::vector<double>& y) const;
-  Cost FindCost(const Hierarchy& hierarchy, int level,
-                const std::vector<double>& y);
   int FindViolated(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
                    const std::vector<double>& y,
                    const std::vector<std::vector<Side>>& side);
