@@ -45,8 +45,9 @@ LexicographicFactorization::LexicographicFactorization(int num_variables,
   factor_.resize(std::max(max_rows, stride_));
   scratch_.resize(std::max(max_rows, stride_));
   packed_.resize(n_);
-  chosen_.resize(max_rows);
+  is_pivot_.resize(max_rows);
   open_.resize(max_rows);
+  nonzero_.resize(max_rows);
   key_.resize(max_rows);
   is_recalled_.resize(max_rows);
 }
@@ -299,49 +300,66 @@ void LexicographicFactorization::Reduce(Level* level) {
     for (int e = begin; e < end; ++e) {
       to[e] = metric_[a] * l_row(a)[e];
     }
-    chosen_[a] = false;
+    is_pivot_[a] = false;
   }
-  int* nonzero = open_.data();  // PivotRows() does not need its list any more.
+  for (int e = begin; e < end; ++e) is_pivot_[carrier_[e]] = true;
+  // The rows that may contain column e, in order. Rows that were orthogonalised before
+  // row e do not. PivotRows() does not need its list any more.
+  int* const open = open_.data();
+  int count = 0;
+  for (int i = 0; i < rows; ++i) {
+    if (!is_pivot_[first + i]) open[count++] = i;
+  }
   for (int e = end - 1; e >= begin && !IsLate(); --e) {
-    // The reflection moves column e of the rows not yet chosen into the row
-    // where its entry is largest. Most entries are zero: those of all rows that
-    // were orthogonalised before row e. Later columns are zero in these rows.
-    double* v = reflection(e);
-    int pivot = -1, count = 0;
-    double squares = 0;
-    for (int i = 0; i < rows; ++i) {
-      v[i] = 0;
-      if (chosen_[first + i]) continue;
-      v[i] = row(first + i)[e];
-      squares += v[i] * v[i];
-      if (v[i] != 0) nonzero[count++] = i;
-      if (pivot < 0 || std::abs(v[i]) > std::abs(v[pivot])) pivot = i;
-    }
-    const double alpha =
-        v[pivot] > 0 ? -std::sqrt(squares) : std::sqrt(squares);
-    const double length = squares - alpha * v[pivot];  // v'v / 2 below.
-    v[pivot] -= alpha;
-    if (length > 0) {
-      const double root = std::sqrt(length);  // So that H = I - v v'.
-      const int columns = e + 1 - begin;
-      for (int k = 0; k < count; ++k) {
-        const int i = nonzero[k];
-        v[i] /= root;
-        factor_[k] = v[i];
-      }
-      std::fill_n(scratch_.data(), columns, 0);
-      AddRows(row(first) + begin, stride_, nonzero, count, factor_.data(),
-              columns, scratch_.data());
-      for (int k = 0; k < count; ++k) factor_[k] = -factor_[k];
-      AddToRows(row(first) + begin, stride_, nonzero, count, factor_.data(),
-                scratch_.data(), columns);
-      Count(2 * count, columns);
-    }
-    chosen_[first + pivot] = true;
-    carrier_[e] = first + pivot;
-    std::copy(row(first + pivot) + begin, row(first + pivot) + e + 1,
+    const int added = carrier_[e] - first;
+    int* const to = std::lower_bound(open, open + count, added);
+    std::copy_backward(to, open + count, open + count + 1);
+    *to = added;
+    ++count;
+    const int carrier = ReduceColumn(*level, e, count);
+    std::remove(open, open + count, carrier);
+    --count;
+    carrier_[e] = first + carrier;
+    std::copy(row(first + carrier) + begin, row(first + carrier) + e + 1,
               effective(e) + begin);
   }
+}
+
+// Reflects the first `count` rows of open_, which are all that may contain column e, so that
+// column e is zero but in the row where its entry is largest. Returns this row.
+int LexicographicFactorization::ReduceColumn(const Level& level, int e,
+                                             int count) {
+  double* first = row(level.first_row);
+  double* v = reflection(e);
+  std::fill_n(v, level.end_row - level.first_row, 0);
+  int pivot = open_[0], terms = 0;
+  double squares = 0;
+  for (int k = 0; k < count; ++k) {
+    const int i = open_[k];
+    v[i] = first[static_cast<size_t>(i) * stride_ + e];
+    squares += v[i] * v[i];
+    if (v[i] != 0) nonzero_[terms++] = i;
+    if (std::abs(v[i]) > std::abs(v[pivot])) pivot = i;
+  }
+  const double alpha = v[pivot] > 0 ? -std::sqrt(squares) : std::sqrt(squares);
+  const double length = squares - alpha * v[pivot];  // v'v / 2 below.
+  v[pivot] -= alpha;
+  if (length == 0) return pivot;
+  const double root = std::sqrt(length);  // So that H = I - v v'.
+  const int columns = e + 1 - level.rank_begin;
+  for (int k = 0; k < terms; ++k) {
+    double& entry = v[nonzero_[k]];
+    entry /= root;
+    factor_[k] = entry;
+  }
+  std::fill_n(scratch_.data(), columns, 0);
+  AddRows(first + level.rank_begin, stride_, nonzero_.data(), terms,
+          factor_.data(), columns, scratch_.data());
+  for (int k = 0; k < terms; ++k) factor_[k] = -factor_[k];
+  AddToRows(first + level.rank_begin, stride_, nonzero_.data(), terms,
+            factor_.data(), scratch_.data(), columns);
+  Count(2 * terms, columns);
+  return pivot;
 }
 
 }  // namespace poise

@@ -231,6 +231,7 @@ class LexicographicFactorization {
   void PivotRows(Level* level);
   int TakePivot(int* open);
   void Reduce(Level* level);
+  int ReduceColumn(const Level& level, int e, int count);
   void SolveLevel(const Level& level);
   void FindResiduals(const Level& level);
   void CountTriangle(const Level& level, int begin);
@@ -254,10 +255,12 @@ class LexicographicFactorization {
   std::vector<int> carrier_;   ///< Row that an effective row replaces.
   AlignedDoubles reflection_;  ///< n x max_rows.
   AlignedDoubles factor_, scratch_, packed_;
-  std::vector<bool> chosen_;
+  std::vector<bool> is_pivot_;  ///< By row, in Reduce().
   /// PivotRows(): rows that are neither orthogonalised nor zero. Reduce(): numbers in the
-  /// level of the rows that it reflects.
+  /// level of the rows that may contain its column.
   std::vector<int> open_;
+  std::vector<int>
+      nonzero_;  ///< ReduceColumn(): those of them that contain it.
   std::int64_t multiply_adds_ = 0;
   std::int64_t max_multiply_adds_ = std::numeric_limits<std::int64_t>::max();
   ProjectedRows kept_;  ///< Rows with a key, on the merged levels.

@@ -46,14 +46,20 @@ void PostureTask::Write(const TaskInput& input, EqualityBlock* equalities,
   const int n = static_cast<int>(equalities->b.size());
   const double inertia =
       BlendByCapture(inertia_, capture_inertia_, input.capture);
+  double last_moved = 1, last_power = 1;
   for (int j = 0; j < n; ++j) {
     if (hangs_[j]) continue;
     const double q = input.state.q[q_start_ + j];
     const double v = input.state.v[v_start_ + j];
     const double moved = std::clamp(
         input.tick.M(v_start_ + j, v_start_ + j) / unit_[j], kLeast, kMost);
+    // Most joints of a humanoid move the least inertia, and powers take long.
+    if (moved != last_moved) {
+      last_moved = moved;
+      last_power = std::pow(moved, inertia);
+    }
     equalities->SetSingle(j, v_start_ + j, 1);
-    equalities->weight[j] = factor_[j] * std::pow(moved, inertia);
+    equalities->weight[j] = factor_[j] * last_power;
     equalities->b[j] = -kp_ * (input.reference.posture[j] - q) + kd_ * v;
   }
 }
