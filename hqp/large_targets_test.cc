@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "poise/hqp/solver.h"
+#include "poise/tests/util/copy_level.h"
 #include "poise/tests/util/random_hierarchy.h"
 
 namespace poise {
@@ -15,15 +16,10 @@ Hierarchy WithTargets(const HierarchyCase& drawn, double factor) {
   Hierarchy to(from.num_variables(), drawn.capacity);
   to.Clear(from.num_levels());
   for (int k = 0; k < from.num_levels(); ++k) {
-    EqualityBlock equalities = to.AddEqualities(k, from.num_equalities(k));
-    equalities.B = from.B(k);
-    equalities.b = factor * from.b(k);
-    equalities.weight = from.weight(k);
-    InequalityBlock inequalities =
-        to.AddInequalities(k, from.num_inequalities(k));
-    inequalities.C = from.C(k);
-    inequalities.lower = factor * from.lower(k);
-    inequalities.upper = factor * from.upper(k);
+    LevelBlocks rows = CopyLevel(from, k, &to);
+    rows.equalities.b *= factor;
+    rows.inequalities.lower *= factor;
+    rows.inequalities.upper *= factor;
   }
   to.FindSpans();
   return to;

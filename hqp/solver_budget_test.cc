@@ -12,6 +12,7 @@
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/fast/budget.h"
 #include "poise/hqp/solver.h"
+#include "poise/tests/util/copy_level.h"
 #include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/hierarchy_by_hand.h"
 #include "poise/tests/util/lexicographic.h"
@@ -231,20 +232,12 @@ HierarchyCase WithMovedBounds(const HierarchyCase& drawn, int seed) {
   HierarchyCase moved = drawn;
   moved.hierarchy.Clear(from.num_levels());
   for (int k = 0; k < from.num_levels(); ++k) {
-    EqualityBlock equalities =
-        moved.hierarchy.AddEqualities(k, from.num_equalities(k));
-    equalities.B = from.B(k);
-    equalities.weight = from.weight(k);
-    for (int i = 0; i < from.num_equalities(k); ++i) {
-      equalities.b[i] = from.b(k)[i] + normal(random);
-    }
-    InequalityBlock inequalities =
-        moved.hierarchy.AddInequalities(k, from.num_inequalities(k));
-    inequalities.C = from.C(k);
+    auto [equalities, inequalities] = CopyLevel(from, k, &moved.hierarchy);
+    for (double& b : equalities.b) b += normal(random);
     for (int i = 0; i < from.num_inequalities(k); ++i) {
       const double by = normal(random);
-      inequalities.lower[i] = from.lower(k)[i] + by;
-      inequalities.upper[i] = from.upper(k)[i] + by;
+      inequalities.lower[i] += by;
+      inequalities.upper[i] += by;
     }
   }
   moved.hierarchy.FindSpans();

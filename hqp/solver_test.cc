@@ -11,6 +11,7 @@
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
+#include "poise/tests/util/copy_level.h"
 #include "poise/tests/util/count_malloc.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/tolerance.h"
@@ -72,18 +73,9 @@ HierarchyCase WithShortRows(const HierarchyCase& drawn, std::uint64_t seed) {
     }
   };
   for (int k = 0; k < from.num_levels(); ++k) {
-    EqualityBlock equalities =
-        result.hierarchy.AddEqualities(k, from.num_equalities(k));
-    equalities.B = from.B(k);
-    equalities.b = from.b(k);
-    equalities.weight = from.weight(k);
-    shorten(equalities.B);
-    InequalityBlock inequalities =
-        result.hierarchy.AddInequalities(k, from.num_inequalities(k));
-    inequalities.C = from.C(k);
-    inequalities.lower = from.lower(k);
-    inequalities.upper = from.upper(k);
-    shorten(inequalities.C);
+    const LevelBlocks rows = CopyLevel(from, k, &result.hierarchy);
+    shorten(rows.equalities.B);
+    shorten(rows.inequalities.C);
   }
   return result;
 }
@@ -324,16 +316,7 @@ TEST(Solver, KeepsTheOptimumOfUpperLevels) {
     Hierarchy upper(n, drawn.capacity);
     upper.Clear(levels);
     for (int level = 0; level < levels; ++level) {
-      EqualityBlock equalities =
-          upper.AddEqualities(level, all.num_equalities(level));
-      equalities.B = all.B(level);
-      equalities.b = all.b(level);
-      equalities.weight = all.weight(level);
-      InequalityBlock inequalities =
-          upper.AddInequalities(level, all.num_inequalities(level));
-      inequalities.C = all.C(level);
-      inequalities.lower = all.lower(level);
-      inequalities.upper = all.upper(level);
+      CopyLevel(all, level, &upper);
     }
     Solver solver(n, drawn.capacity);
     Solution whole(n, drawn.capacity), part(n, drawn.capacity);

@@ -25,7 +25,7 @@ namespace {
 struct Night {
   std::uint64_t problems = 100000;
   std::uint64_t seed = 1;
-  std::string out = ".";
+  std::string out = "hqp-night";
   double tolerance = 1e-9;
   int ticks = 1;
   RandomHierarchyOptions options;

@@ -9,6 +9,7 @@
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
+#include "poise/tests/util/copy_level.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/tolerance.h"
 
@@ -37,16 +38,7 @@ HierarchyCase WithRoom(const HierarchyCase& drawn) {
   }
   HierarchyCase result{capacity, Hierarchy(from.num_variables(), capacity)};
   for (int k = 0; k < from.num_levels(); ++k) {
-    EqualityBlock equalities =
-        result.hierarchy.AddEqualities(k, from.num_equalities(k));
-    equalities.B = from.B(k);
-    equalities.b = from.b(k);
-    equalities.weight = from.weight(k);
-    InequalityBlock inequalities =
-        result.hierarchy.AddInequalities(k, from.num_inequalities(k));
-    inequalities.C = from.C(k);
-    inequalities.lower = from.lower(k);
-    inequalities.upper = from.upper(k);
+    CopyLevel(from, k, &result.hierarchy);
   }
   return result;
 }

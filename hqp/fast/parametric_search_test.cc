@@ -12,6 +12,7 @@
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
+#include "poise/tests/util/copy_level.h"
 #include "poise/tests/util/path_between.h"
 #include "poise/tests/util/random_hierarchy.h"
 
@@ -283,17 +284,8 @@ HierarchyCase Perturb(const HierarchyCase& from, std::mt19937* numbers) {
   std::uniform_real_distribution<double> change(-1, 1);
   Hierarchy changed(from.hierarchy.num_variables(), from.capacity);
   for (int k = 0; k < from.hierarchy.num_levels(); ++k) {
-    EqualityBlock rows =
-        changed.AddEqualities(k, from.hierarchy.num_equalities(k));
-    rows.B = from.hierarchy.B(k);
-    rows.b = from.hierarchy.b(k);
-    rows.weight = from.hierarchy.weight(k);
+    auto [rows, limits] = CopyLevel(from.hierarchy, k, &changed);
     for (double& b : rows.b) b += change(*numbers);
-    InequalityBlock limits =
-        changed.AddInequalities(k, from.hierarchy.num_inequalities(k));
-    limits.C = from.hierarchy.C(k);
-    limits.lower = from.hierarchy.lower(k);
-    limits.upper = from.hierarchy.upper(k);
     for (int i = 0; i < limits.C.rows(); ++i) {
       const double shift = change(*numbers);
       limits.lower[i] += shift;

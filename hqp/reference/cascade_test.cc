@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "poise/hqp/certificate.h"
+#include "poise/tests/util/copy_level.h"
 #include "poise/tests/util/lexicographic.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/solve_cascade.h"
@@ -87,16 +88,10 @@ HierarchyCase Part(const HierarchyCase& drawn, int levels, double unit = 1) {
                      Hierarchy(from.num_variables(), drawn.capacity)};
   part.hierarchy.Clear(levels);
   for (int k = 0; k < levels; ++k) {
-    EqualityBlock equalities =
-        part.hierarchy.AddEqualities(k, from.num_equalities(k));
-    equalities.B = from.B(k);
-    equalities.b = unit * from.b(k);
-    equalities.weight = from.weight(k);
-    InequalityBlock inequalities =
-        part.hierarchy.AddInequalities(k, from.num_inequalities(k));
-    inequalities.C = from.C(k);
-    inequalities.lower = unit * from.lower(k);
-    inequalities.upper = unit * from.upper(k);
+    LevelBlocks rows = CopyLevel(from, k, &part.hierarchy);
+    rows.equalities.b *= unit;
+    rows.inequalities.lower *= unit;
+    rows.inequalities.upper *= unit;
   }
   return part;
 }

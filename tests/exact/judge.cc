@@ -39,7 +39,7 @@ void Report(const HierarchyCase& drawn, std::uint64_t seed,
 
 int Main(int argc, char** argv) {
   std::uint64_t problems = 10000, seed = 1;
-  std::string out = ".";
+  std::string out = "hqp-exact";
   CLI::App app("Compares the two solvers with exact optima.", "judge");
   app.option_defaults()->always_capture_default();
   app.add_option("--problems", problems, "Number of hierarchies to draw");

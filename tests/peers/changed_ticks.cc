@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include "poise/tests/util/copy_level.h"
+
 namespace poise {
 namespace {
 
@@ -14,16 +16,8 @@ double DrawChange(std::mt19937* random) {
 
 void AddChangedLevel(const Hierarchy& from, int k, bool changes_bounds,
                      std::mt19937* random, Hierarchy* to) {
-  EqualityBlock equalities = to->AddEqualities(k, from.num_equalities(k));
-  equalities.B = from.B(k);
-  equalities.b = from.b(k);
-  equalities.weight = from.weight(k);
+  auto [equalities, inequalities] = CopyLevel(from, k, to);
   for (double& b : equalities.b) b *= 1 + DrawChange(random);
-  InequalityBlock inequalities =
-      to->AddInequalities(k, from.num_inequalities(k));
-  inequalities.C = from.C(k);
-  inequalities.lower = from.lower(k);
-  inequalities.upper = from.upper(k);
   if (!changes_bounds) return;
   for (int i = 0; i < from.num_inequalities(k); ++i) {
     const double shift = DrawChange(random);

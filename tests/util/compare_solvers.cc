@@ -11,6 +11,7 @@
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solver.h"
 #include "poise/math/rank.h"
+#include "poise/tests/util/copy_level.h"
 
 namespace poise {
 namespace {
@@ -213,18 +214,7 @@ Certificate CertifyShortest(const HierarchyCase& drawn,
                                       drawn.capacity.begin() + levels);
   capacity.push_back({n, 0});
   Hierarchy hierarchy(n, capacity);
-  for (int k = 0; k < levels; ++k) {
-    EqualityBlock equalities =
-        hierarchy.AddEqualities(k, from.num_equalities(k));
-    equalities.B = from.B(k);
-    equalities.b = from.b(k);
-    equalities.weight = from.weight(k);
-    InequalityBlock inequalities =
-        hierarchy.AddInequalities(k, from.num_inequalities(k));
-    inequalities.C = from.C(k);
-    inequalities.lower = from.lower(k);
-    inequalities.upper = from.upper(k);
-  }
+  for (int k = 0; k < levels; ++k) CopyLevel(from, k, &hierarchy);
   hierarchy.AddEqualities(levels, n).B.setIdentity();
   Solution judged(n, capacity);
   if (Solver(n, capacity).Solve(hierarchy, &judged) != Status::kOptimal) {
