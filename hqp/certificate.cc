@@ -109,12 +109,12 @@ void Certifier::Truncate(const Hierarchy& hierarchy,
     if (is_certified) {
       FindGap(hierarchy, level, *solution);
       solution->certificate = certificate;
+      solution->certificate.relative_gap =
+          Worse(certificate.relative_gap, RelativeGap(level));
     } else {
       // Multipliers that are not certified bound nothing.
       gap_[level] = cost_[level] + cost_rounding_[level];
     }
-    solution->certificate.relative_gap =
-        Worse(certificate.relative_gap, RelativeGap(level));
     if (is_certified) continue;
     solution->status = Status::kIterationLimit;
     solution->failed_level = level;
@@ -243,6 +243,8 @@ void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
     rows[i].rounding = rounding;
     level_sums.rounding += (slack + rounding / 2) * rounding;
     level_sums.slack_rounding += rounding * rounding;
+    // The margin of such a row would be infinite, and no multiplier on it wrong.
+    if (std::isinf(rows[i].norm)) level_sums.feasibility = kInfinity;
     if (violation > 0 && rows[i].norm > 0) {
       farthest_ = std::max(farthest_, std::abs(bound) / rows[i].norm);
     }

@@ -192,5 +192,46 @@ TEST(Certifier, RejectsARowThatIsNotZeroOutsideItsSpan) {
   }
 }
 
+// Above 1.3e154 the square of a row overflows. Its margin would be infinite, and no
+// multiplier on it wrong.
+TEST(Certifier, CertifiesNoRowWhoseSquareOverflows) {
+  const std::vector<LevelCapacity> capacity = {{0, 1}, {1, 0}};
+  for (const double size : {1e150, 1e155}) {
+    Hierarchy hierarchy(1, capacity);
+    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+    bound.C << size;
+    bound.upper << size;
+    EqualityBlock target = hierarchy.AddEqualities(1, 1);
+    target.B << 1;
+    target.b << -0.5;
+    Solution solution(1, capacity);
+    solution.y << 0.25;  // The optimum is 0.5.
+    for (const int level : {0, 1}) EvaluateLevel(hierarchy, level, &solution);
+    solution.levels[1].multipliers[0].inequality[0] = 0.25 / size;
+    Certifier certifier(1, capacity);
+    certifier.Certify(hierarchy, &solution);
+    EXPECT_GT(solution.certificate.worst(), 0.1) << size;
+  }
+}
+
+// A level that is not certified bounds nothing, so that the largest gap is that of the
+// levels above it.
+TEST(Certifier, HasNoGapOfALevelThatFails) {
+  const std::vector<LevelCapacity> capacity = {{1, 0}, {1, 0}};
+  Hierarchy hierarchy(2, capacity);
+  hierarchy.AddEqualities(0, 1).B << 1, 0;
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << 0, 1;
+  second.b << -1;
+  Solution solution(2, capacity);
+  for (const int level : {0, 1}) EvaluateLevel(hierarchy, level, &solution);
+  Certifier certifier(2, capacity);
+  certifier.Truncate(hierarchy, &solution);
+  EXPECT_EQ(solution.failed_level, 1);
+  EXPECT_NEAR(certifier.gap(1), 0.5,
+              1e-14);  // The whole cost, and its rounding.
+  EXPECT_LT(solution.certificate.relative_gap, 1e-9);
+}
+
 }  // namespace
 }  // namespace poise

@@ -106,14 +106,21 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int level = 0; level < hierarchy.num_levels(); ++level) {
     *failed_level = level;
-    // A sum over the block is NaN if any entry is NaN or infinite.
-    const auto is_finite = [](const auto& block) {
-      return std::isfinite((block.array() * 0).sum());
+    // A product with 0 is NaN if a factor is NaN or infinite.
+    double zero = 0;
+    const auto square = [](const auto& row) {
+      const double norm = row.template lpNorm<1>();
+      return norm * norm;
     };
-    if (!is_finite(hierarchy.B(level)) || !is_finite(hierarchy.b(level)) ||
-        !is_finite(hierarchy.weight(level)) || !is_finite(hierarchy.C(level))) {
-      return Status::kNotFinite;
+    for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
+      const double weight = hierarchy.weight(level)[i];
+      const double size = square(hierarchy.B(level).row(i)) * weight;
+      zero += (size + hierarchy.b(level)[i] + weight) * 0;
     }
+    for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
+      zero += square(hierarchy.C(level).row(i)) * 0;
+    }
+    if (zero != 0) return Status::kNotFinite;
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       const double lower = hierarchy.lower(level)[i];
       const double upper = hierarchy.upper(level)[i];

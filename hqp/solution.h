@@ -13,7 +13,8 @@ enum class Status {
   kOptimal,
   /// No certified optimum: the levels above failed_level are optimal.
   kIterationLimit,
-  kNotFinite,  ///< NaN or infinity in the rows; y is zero.
+  kNotFinite,  ///< NaN or infinity in the rows, or too large numbers; y is
+               ///< zero. See CheckInput().
   kBadInput,   ///< lower > upper, a negative weight, or too many rows; y is
                ///< zero.
 };
@@ -77,7 +78,7 @@ struct Certificate {
   /// |y| + |bound| in place of each entry of v.
   double priority = 0;
 
-  /// Largest Certifier::gap() of the judged levels, relative to c_k + 1e-9 s_k.
+  /// Largest Certifier::gap() of the certified levels, relative to c_k + 1e-9 s_k.
   /// It is a bound, not an error, and is not part of worst().
   double relative_gap = 0;
 
@@ -119,7 +120,9 @@ void EvaluateLevel(const Hierarchy& hierarchy, int level,
                    Solution* solution) noexcept;
 
 /// Checks the numbers of the hierarchy. Returns kNotFinite if a number is NaN
-/// or infinite; but a lower bound may be -inf, and an upper bound +inf. Returns
+/// or infinite; but a lower bound may be -inf, and an upper bound +inf. It also returns
+/// kNotFinite if a row is so large, above 1e150, that the square of its sum of absolute
+/// entries, times its weight, overflows. Returns
 /// kBadInput if lower > upper or a weight is negative, else kOptimal. Sets
 /// *failed_level to the first level with an error, or to -1.
 Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept;

@@ -186,14 +186,23 @@ TEST_F(CheckInputTest, ReportsTheFirstLevelWithAnError) {
   EXPECT_EQ(failed_level_, 0);
 }
 
-// Sums of finite numbers may overflow. That does not make the numbers invalid.
-TEST(CheckInput, AcceptsTheLargestNumbers) {
-  Hierarchy hierarchy(2, {{1, 0}});
-  hierarchy.AddEqualities(0, 1).B.setConstant(
-      std::numeric_limits<double>::max());
-  int failed_level = 7;
-  EXPECT_EQ(CheckInput(hierarchy, &failed_level), Status::kOptimal);
-  EXPECT_EQ(failed_level, -1);
+// A cost is the square of a row. Where that overflows, nothing can be certified.
+TEST(CheckInput, AcceptsNumbersWhoseSquaresAreFinite) {
+  for (const bool is_equality : {true, false}) {
+    for (const double entry : {1e153, 1e154, 1e308}) {
+      Hierarchy hierarchy(2, {{1, 1}});
+      if (is_equality) {
+        hierarchy.AddEqualities(0, 1).B.setConstant(entry);
+      } else {
+        hierarchy.AddInequalities(0, 1).C.setConstant(entry);
+      }
+      int failed_level = 7;
+      const bool is_valid = entry == 1e153;  // (2e153)^2 = 4e306.
+      EXPECT_EQ(CheckInput(hierarchy, &failed_level),
+                is_valid ? Status::kOptimal : Status::kNotFinite);
+      EXPECT_EQ(failed_level, is_valid ? -1 : 0);
+    }
+  }
 }
 
 TEST_F(CheckInputTest, RejectsInvalidBoundsAndWeights) {

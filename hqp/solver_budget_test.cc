@@ -223,6 +223,35 @@ TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
   EXPECT_LT(worse, 5);
 }
 
+// The optimum of the working set meets the levels before the last one, but violates more
+// bounds of the last one than the answer of the last solve.
+TEST(SolverBudget, NeverGetsWorseWhileItMeetsTheLevelsBeforeTheLast) {
+  const std::vector<LevelCapacity> capacity = {{0, 0}, {0, 3}};
+  Hierarchy hierarchy(1, capacity);
+  const auto set = [&](double lower0, double upper0, double lower1,
+                       double upper1, double upper2) {
+    hierarchy.Clear(2);
+    InequalityBlock rows = hierarchy.AddInequalities(1, 3);
+    rows.C << 0.168735, 0.663447, 0.868708;
+    rows.lower.head(2) << lower0, lower1;
+    rows.upper << upper0, upper1, upper2;
+  };
+  Solver solver(1, capacity);
+  Solution solution(1, capacity);
+  set(-0.48687, -0.113943, 0.873413, 1.04694, 0);
+  ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+  set(0.259948, 0.632875, 0.0885357, 0.262061, 0.815315);
+  solver.max_modelled_seconds = 1e-9;
+  double last = std::numeric_limits<double>::infinity();
+  Status status = Status::kIterationLimit;
+  for (int i = 0; i < 10 && status != Status::kOptimal; ++i) {
+    status = solver.Solve(hierarchy, &solution);
+    EXPECT_LE(solution.levels[1].cost, last * (1 + 1e-12)) << i;
+    last = solution.levels[1].cost;
+  }
+  EXPECT_EQ(status, Status::kOptimal);
+}
+
 // Returns the same problem with other targets and bounds, as most ticks have: each is
 // shifted by a normally distributed number of 0.1, where the rows have entries near 1.
 HierarchyCase WithMovedBounds(const HierarchyCase& drawn, int seed) {

@@ -202,6 +202,84 @@ TEST_F(SolverTest, ReportsBadInput) {
   EXPECT_EQ(solution_.failed_level, 2);
 }
 
+// Numbers whose squares overflow do not enter the search, and the next solves are those of
+// a solver that has never seen them.
+TEST(Solver, RefusesRowsWhoseSquaresOverflow) {
+  const std::vector<LevelCapacity> capacity = {{1, 1}, {2, 0}};
+  const auto make = [&](double of_B, double of_C, double weight) {
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock equality = hierarchy.AddEqualities(0, 1);
+    equality.B << 0.7 * of_B, 2 * of_B;
+    equality.b << of_B;
+    equality.weight << weight;
+    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+    bound.C << of_C, -of_C;
+    bound.upper << of_C / 3;
+    hierarchy.AddEqualities(1, 2).B.setIdentity();
+    return hierarchy;
+  };
+  const Hierarchy usual = make(1, 1, 1);
+  Solution solution(2, capacity), expected(2, capacity);
+  ASSERT_EQ(Solver(2, capacity).Solve(usual, &expected), Status::kOptimal);
+  const Hierarchy refused[] = {make(1e160, 1, 1), make(1, 1e160, 1),
+                               make(1e100, 1, 1e120)};
+  for (const Hierarchy& hierarchy : refused) {
+    Solver solver(2, capacity);
+    solver.max_modelled_seconds = 1e-9;
+    EXPECT_EQ(solver.Solve(hierarchy, &solution), Status::kNotFinite);
+    EXPECT_EQ(solution.failed_level, 0);
+    EXPECT_TRUE(solution.y.isZero(0));
+    int failed_level;
+    EXPECT_EQ(CheckInput(hierarchy, &failed_level), Status::kNotFinite);
+    EXPECT_EQ(failed_level, 0);
+    solver.max_modelled_seconds = 0;
+    EXPECT_EQ(solver.Solve(usual, &solution), Status::kOptimal);
+    EXPECT_EQ(solution.y, expected.y);
+  }
+  EXPECT_EQ(Solver(2, capacity).Solve(make(1e140, 1e140, 1), &solution),
+            Status::kOptimal);
+}
+
+// A row that is too small to count leaves its level diagonal. So it takes no memory of the
+// leading levels, and the answer does not depend on the solver's past.
+TEST(Solver, LeavesATinyRowOutOfADiagonalLevel) {
+  const std::vector<LevelCapacity> capacity = {{0, 1}, {2, 0}};
+  constexpr int kMaxLeadingRows = 2;
+  const auto make = [&](int column, double entry, double weight) {
+    Hierarchy hierarchy(2, capacity);
+    InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+    bound.C << 1, 1;
+    bound.upper << -1;
+    EqualityBlock targets = hierarchy.AddEqualities(1, 2);
+    targets.B(0, column) = entry;
+    targets.B(1, 1) = 0.3;
+    targets.b << 0, -7;
+    targets.weight << weight, 0.7;
+    return hierarchy;
+  };
+  Solution without(2, capacity);
+  ASSERT_EQ(Solver(2, capacity).Solve(make(0, 0, 1), &without),
+            Status::kOptimal);
+  const std::pair<double, double> rows[] = {
+      {1e-160, 1}, {1, 1e-310}, {1e-100, 1e-110}};
+  for (const auto& [entry, weight] : rows) {
+    Solver living(2, capacity, kMaxLeadingRows);
+    Solution solution(2, capacity);
+    for (const int column : {1, 0}) {  // The first one is what it remembers.
+      SCOPED_TRACE(column);
+      living.Forget();
+      EXPECT_EQ(living.Solve(make(column, entry, weight), &solution),
+                Status::kOptimal);
+      EXPECT_EQ(solution.y, without.y);
+    }
+    EXPECT_EQ(living.Solve(make(1, 1, 1), &solution), Status::kOptimal);
+    living.Forget();
+    EXPECT_EQ(living.Solve(make(0, entry, weight), &solution),
+              Status::kOptimal);
+    EXPECT_EQ(solution.y, without.y);
+  }
+}
+
 TEST_F(SolverTest, RejectsAHierarchyBeyondItsCapacity) {
   const auto refuses = [&](int num_variables,
                            const std::vector<LevelCapacity>& capacity,

@@ -92,7 +92,7 @@ void MultiplierWriter::WriteDiagonalMultipliers(
   if (of.any) std::copy(of.left.begin(), of.left.end(), remainder_.begin());
   for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
     const int j = problem.selected(level, i);
-    if (fixed_by(j) >= level) continue;
+    if (problem.IsLeftOut(level, i) || fixed_by(j) >= level) continue;
     remainder_[j] += hierarchy.weight(level)[i] * hierarchy.B(level)(i, j) *
                      solution->levels[level].equality_residual[i];
   }
@@ -101,7 +101,7 @@ void MultiplierWriter::WriteDiagonalMultipliers(
     for (int i = 0, rows = hierarchy.num_equalities(above); i < rows; ++i) {
       const int j = problem.selected(above, i);
       if (remainder_[j] == 0 || fixed_by(j) != above ||
-          hierarchy.weight(above)[i] == 0 || hierarchy.B(above)(i, j) == 0) {
+          hierarchy.weight(above)[i] == 0 || problem.IsLeftOut(above, i)) {
         continue;
       }
       to[i] = -remainder_[j] / hierarchy.B(above)(i, j);
@@ -238,9 +238,10 @@ void MultiplierWriter::AddOwnMultipliers(const Hierarchy& hierarchy, int level,
     }
   }
   for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
+    if (hierarchy.weight(level)[i] == 0 || problem.IsLeftOut(level, i))
+      continue;
     const int j = problem.selected(level, i);
     const double scale = hierarchy.B(level)(i, j);
-    if (hierarchy.weight(level)[i] == 0 || scale == 0) continue;
     if (problem.diagonal().level(j) + problem.num_leading() == level) {
       (*sum)[i] -= factor * left[j] / scale;
       left[j] = 0;

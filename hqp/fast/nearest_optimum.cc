@@ -3,6 +3,7 @@
 // last.
 #include <algorithm>
 
+#include "poise/hqp/fast/cost_order.h"
 #include "poise/hqp/fast/infinitesimals.h"
 #include "poise/hqp/fast/parametric_search.h"
 
@@ -42,7 +43,8 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
     problem->Approach(y_, leading - 1);
     if (FindBlocking(hierarchy, *problem, leading - 1, {}, *side).side ==
         Side::kNone) {
-      y_ = *answer = problem->y();
+      y_ = problem->y();
+      if (IsBetter(hierarchy, y_, *answer)) *answer = y_;
       return true;
     }
     problem->UseLeading(leading - 1);
@@ -57,7 +59,7 @@ bool ParametricSearch::MeetLevelsBeforeLast(const Hierarchy& hierarchy,
     *side = near_side_;
     return false;
   }
-  *answer = y_;
+  if (IsBetter(hierarchy, y_, *answer)) *answer = y_;
   problem->UseLeading(leading);
   // This is not interrupted: the levels that y meets would then have no multipliers.
   problem->SolveLeading(hierarchy, *side);

@@ -78,6 +78,7 @@ bool WorkingSetProblem::IsDiagonal(const Hierarchy& hierarchy, int level) {
   if (hierarchy.num_inequalities(level) > 0 || n_ == 0) return false;
   const auto B = hierarchy.B(level);
   for (int i = 0; i < B.rows(); ++i) {
+    if (IsLeftOut(level, i)) continue;
     // The variable is usually the same as in the last tick.
     const double* row = B.data() + i * n_;
     int& variable = selected_[level][i];
@@ -109,7 +110,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     const auto B = hierarchy.B(level), C = hierarchy.C(level);
     const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-    double zero = 0;  // NaN if a number is not finite.
+    double zero = 0;  // NaN if a number, or the square of a row, is not finite.
     bool in_order = true;
     kernels::SpanAbsoluteSums(B.data(), n_, hierarchy.B_span(level),
                               hierarchy.num_equalities(level),
@@ -117,7 +118,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
       work_.num_entries += hierarchy.B_span(level)[i].size;
-      zero += (norm + b[i] + weight[i]) * 0;
+      zero += (norm * norm * weight[i] + b[i] + weight[i]) * 0;
       in_order &= !(weight[i] < 0);
       if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
         norm = 0;
@@ -128,7 +129,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < C.rows(); ++i) {
       double& norm = norm_[norm_begin_[level] + i];
       work_.num_entries += hierarchy.C_span(level)[i].size;
-      zero += norm * 0;
+      zero += norm * norm * 0;
       if (norm * norm < tolerances::kZeroRow) norm = 0;
       if (!(lower[i] < kInfinity && upper[i] > -kInfinity)) {
         return Status::kNotFinite;
@@ -159,8 +160,8 @@ void WorkingSetProblem::Plan(const Hierarchy& hierarchy, int num_levels,
   for (int level = num_leading_; level < num_levels; ++level) {
     diagonal_.AddLevel();
     for (int i = 0, rows = hierarchy.num_equalities(level); i < rows; ++i) {
+      if (IsLeftOut(level, i)) continue;
       const double scale = hierarchy.B(level)(i, selected_[level][i]);
-      if (scale == 0) continue;
       diagonal_.Add(selected_[level][i],
                     hierarchy.weight(level)[i] * scale * scale,
                     -hierarchy.b(level)[i] / scale);

@@ -51,8 +51,8 @@ class WorkingSetProblem {
   };
 
   /// Reads a hierarchy's sizes and the norms of its rows, and checks its
-  /// numbers: kNotFinite if one is not finite, or a bound infinite on the wrong
-  /// side; kBadInput if lower > upper, a weight is negative, or it has more
+  /// numbers as CheckInput() does: kNotFinite if one is not finite or too large, or a bound
+  /// infinite on the wrong side; kBadInput if lower > upper, a weight is negative, or it has more
   /// rows or other variables than there is room for. failed_level is the first
   /// such level.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
@@ -242,7 +242,9 @@ class WorkingSetProblem {
 
   /// Sum of absolute entries of row i of C.
   double norm(int level, int i) const { return norm_[norm_begin_[level] + i]; }
-  /// Variable of row i of B in a diagonal level.
+  /// Returns whether row i of B is zero, or so small that it is left out.
+  bool IsLeftOut(int level, int i) const { return B_norm_[level][i] == 0; }
+  /// Variable of row i of B in a diagonal level, if the row is not left out.
   int selected(int level, int i) const { return selected_[level][i]; }
 
  private:

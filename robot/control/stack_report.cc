@@ -83,6 +83,8 @@ void Stack::ReportInequalities(int i, const Solution& solution,
   const LevelSolution& level = solution.levels[entry.hierarchy_level];
   const double scale = std::sqrt(RowWeight(entry));
   const int rows = static_cast<int>(entry.task->inequality_names().size());
+  const int solved =
+      solution.failed_level < 0 ? num_levels_ : solution.failed_level;
   for (int row = 0; row < rows; ++row) {
     const int index = entry.inequality_start + row;
     // The multiplier of a level on a row of the same level is the slack.
@@ -93,9 +95,10 @@ void Stack::ReportInequalities(int i, const Solution& solution,
                      level.slack[index],
                      level.slack[index] / scale};
     // The first level with a multiplier counts. It already holds the row, so
-    // the multipliers of lower levels may have any size.
+    // the multipliers of lower levels may have any size. So may those of levels
+    // without an optimum.
     for (int k = entry.hierarchy_level + 1;
-         k < num_levels_ && active.multiplier <= kNoticeable; ++k) {
+         k < solved && active.multiplier <= kNoticeable; ++k) {
       const double multiplier = solution.levels[k]
                                     .multipliers[entry.hierarchy_level]
                                     .inequality[index];

@@ -81,6 +81,12 @@ void TruncatedTicksTest::ExpectTruncatedReport() const {
   EXPECT_EQ(report().iterations, 2);
   EXPECT_GT(report().failed_level, 1);
   EXPECT_LE(report().certificate.worst(), Certifier::kCertified);
+  // A row is reported for its own slack, or for the multiplier of a level with an optimum.
+  for (const ActiveRow& row : report().active) {
+    if (row.pressing_level == report().tasks[row.task].level) continue;
+    EXPECT_LT(row.pressing_level, report().failed_level)
+        << hasty_.stack().RowName(row);
+  }
 }
 
 // Compares the costs of the reported y with those of the optimum. The gap is a bound down

@@ -17,6 +17,7 @@
 #include "poise/tools/commands/explain/row_phrases.h"
 #include "poise/tools/commands/explain/run_story.h"
 #include "poise/tools/commands/explain/short_story.h"
+#include "poise/tools/commands/explain/truncated_ticks.h"
 
 namespace poise {
 namespace {
@@ -106,9 +107,8 @@ std::string ConflictSentence(double time, Values rows, const RunStory& story,
 
 // Returns the reason of a status other than ok, as the end of a sentence.
 std::string SayWhy(const std::string& reason, const RowPhrases& phrases) {
-  constexpr std::string_view kLevel = "rank_";  // As log.csv has it.
-  if (reason.rfind(kLevel, 0) == 0) {
-    return ": level " + reason.substr(kLevel.size()) +
+  if (reason.rfind(kLevelReason, 0) == 0) {
+    return ": level " + reason.substr(kLevelReason.size()) +
            " and the levels below it are not solved";
   }
   if (reason == "state")
@@ -119,6 +119,16 @@ std::string SayWhy(const std::string& reason, const RowPhrases& phrases) {
   if (!reason.empty())
     return ": the most violated limit is " + phrases.phrase(reason);
   return "";
+}
+
+// Returns " in 5 of 12 ticks" if a state has pauses.
+std::string SayShare(const Span& span) {
+  const double period = span.end - span.to;
+  if (period <= 0) return "";
+  const long all = std::lround(span.lasted() / period);
+  if (span.num_ticks >= all) return "";
+  return " in " + std::to_string(span.num_ticks) + " of " +
+         std::to_string(all) + " ticks";
 }
 
 // Returns true if the run was stopped before the robot fell, so that its
@@ -237,11 +247,13 @@ json ExplainStatus(const RunStory& story, const RowPhrases& phrases,
     out.push_back({{"name", name},
                    {"from", span.from},
                    {"to", span.to},
+                   {"ticks", span.num_ticks},
                    {"reason", why.empty() ? json() : json(why)}});
-    sentences->emplace_back(
-        span.from, Format("%.3f s: ", span.from) + "the controller reports " +
-                       Spaced(name) + Format(" until %.3f s", span.to) +
-                       SayWhy(why, phrases) + ".");
+    sentences->emplace_back(span.from, Format("%.3f s: ", span.from) +
+                                           "the controller reports " +
+                                           Spaced(name) + SayShare(span) +
+                                           Format(" until %.3f s", span.to) +
+                                           SayWhy(why, phrases) + ".");
   }
   return out;
 }
@@ -381,6 +393,8 @@ json Explain(const std::filesystem::path& run) {
       story.has_rows ? SayNothing(story)
                      : log.filename().string() + " has a header and no rows.";
   if (is_quiet) said.push_back(said_of_quiet);
+  const std::string truncated = SayTruncated(story, summary);
+  if (!truncated.empty()) said.push_back(truncated);
   for (const json& note : notes) said.push_back(note);
   said.push_back(Ending(summary));
   if (left_out > 0) {
@@ -391,6 +405,7 @@ json Explain(const std::filesystem::path& run) {
   out["causes"] = ExplainCauses(story);
   std::vector<std::string> must_be_said;
   if (is_quiet) must_be_said.push_back(said_of_quiet);
+  if (!truncated.empty()) must_be_said.push_back(truncated);
   for (const json& note : notes) must_be_said.push_back(note);
   out["story"] = TellShortStory(story, summary, must_be_said, Ending(summary));
   return out;

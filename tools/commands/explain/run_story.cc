@@ -111,6 +111,7 @@ void Spans::Add(const std::string& name, const LogTick& tick, double value,
   Span& span = spans_[it->second];
   span.to = tick.time;
   span.end = tick.time + tick.period;
+  ++span.num_ticks;
   if (std::abs(value) < std::abs(span.peak)) return;
   span.peak = value;
   span.at = tick.time;

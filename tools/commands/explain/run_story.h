@@ -30,8 +30,9 @@ struct Span {
   /// `peak`: the value with the largest magnitude, with its sign. `at`: its
   /// time, s.
   double from, to, at, peak;
-  double end;   ///< End of the last tick, s.
-  Values with;  ///< Other values at the time `at`.
+  double end;         ///< End of the last tick, s.
+  Values with;        ///< Other values at the time `at`.
+  int num_ticks = 0;  ///< Ticks in the state, without those of pauses.
 
   double lasted() const { return end - from; }
 };

@@ -136,11 +136,13 @@ void AddControlOptions(CLI::App* app, Overrides* o) {
                   "rate of the controller, Hz (1000)")
       ->check(finite);
   app->add_option("--budget-us", o->budget_us,
-                  "time for the solver in a tick, us, by the measured cost of "
-                  "its steps (0: no limit)")
+                  "limit of the solver's time in a tick, us, 0 to 1e6, "
+                  "predicted from its work, so that a replay is exact; it "
+                  "makes at least two iterations (0: no limit)")
       ->check(finite);
   app->add_flag("--budget-clock", o->budget_clock,
-                "measure the budget by the clock: no replay is exact");
+                "count the budget by the clock, not by predicted time; a "
+                "replay then differs");
 }
 
 // Adds the options about the simulator and the sensors.
@@ -211,7 +213,8 @@ void Apply(const Overrides& o, Scenario* scenario) {
   control.feedforward |= o.feedforward;
   control.estimator |= o.estimator;
   Take(o.budget_us, &control.budget_us);
-  control.budget_clock |= o.budget_clock;
+  if (o.budget_us == 0.0) control.budget_clock = false;
+  Take(o.budget_clock, &control.budget_clock);
   if (o.steps) scenario->steps = *o.steps == "on";
   if (o.friction) control.inscribed = *o.friction == "inscribed";
   TakeRate(o.control_rate, &control.dt);

@@ -19,8 +19,8 @@ struct Overrides {
   std::optional<std::string> link, tasks, friction, plant, pushes, steps;
   std::vector<double> point, freeze;
   std::vector<std::string> with, without;
-  bool weighted = false, feedforward = false, estimator = false,
-       budget_clock = false;
+  bool weighted = false, feedforward = false, estimator = false;
+  std::optional<bool> budget_clock;
   std::optional<unsigned> seed;
 };
 

@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
+#include "poise/tools/commands/explain/truncated_ticks.h"
+
+#include <gtest/gtest.h>
+
+namespace poise {
+namespace {
+
+using nlohmann::json;
+
+RunStory StoryWith(const std::vector<std::pair<std::string, int>>& states) {
+  RunStory story;
+  double time = 0;
+  for (const auto& [name, ticks] : states) {
+    for (int i = 0; i < ticks; ++i) {
+      story.states.Add(name, {time, 1e-3}, 1, {});
+      time += 1e-3;
+    }
+  }
+  return story;
+}
+
+TEST(TruncatedTicks, AreNoneIfAllAreSolved) {
+  const RunStory story = StoryWith({{"limit_relaxed torque.l_knee.max", 3}});
+  EXPECT_EQ(SayTruncated(story, {{"ticks", 10}}), "");
+}
+
+TEST(TruncatedTicks, AreCountedByLevelOverPauses) {
+  const RunStory story = StoryWith({{"truncated rank_4", 2},
+                                    {"truncated rank_2", 1},
+                                    {"limit_relaxed", 40},
+                                    {"truncated rank_4", 3}});
+  EXPECT_EQ(story.states.spans().size(), 4u);
+  const json summary = {
+      {"ticks", 100}, {"fell_at", nullptr}, {"hqp", {{"budget_us", 300.0}}}};
+  EXPECT_EQ(SayTruncated(story, summary),
+            "6 of 100 ticks were cut off by the budget of 300 us before all "
+            "levels were solved: level 2 in 1, level 4 in 5.");
+}
+
+TEST(TruncatedTicks, AdviseALargerBudgetIfTheRobotFell) {
+  const RunStory story = StoryWith({{"truncated rank_3", 2}});
+  EXPECT_EQ(SayTruncated(story, {{"ticks", 50},
+                                 {"fell_at", 1.5},
+                                 {"hqp", {{"budget_us", 99.5}}}}),
+            "2 of 50 ticks were cut off by the budget of 99.5 us before all "
+            "levels were solved: level 3 in 2. A larger budget may have "
+            "helped.");
+}
+
+TEST(TruncatedTicks, NeedNoBudgetAndNoSummary) {
+  const RunStory story = StoryWith({{"truncated rank_5", 7}});
+  const std::string expected =
+      " ticks were not solved to the last level: level 5 in 7.";
+  EXPECT_EQ(SayTruncated(story, json::object()), "7" + expected);
+  EXPECT_EQ(SayTruncated(StoryWith({{"truncated rank_5", 1}}), json::object()),
+            "1 tick was not solved to the last level: level 5 in 1.");
+  EXPECT_EQ(
+      SayTruncated(
+          story, {{"ticks", 9}, {"fell_at", 1.5}, {"hqp", {{"budget_us", 0}}}}),
+      "7 of 9" + expected);
+  EXPECT_EQ(SayTruncated(story, {{"ticks", "many"}, {"hqp", 3}}),
+            "7" + expected);
+}
+
+}  // namespace
+}  // namespace poise
