@@ -14,41 +14,40 @@ struct Cost {
   double cost, size;  // Twice the cost of a level; squares of its terms.
 };
 
-const double* RowOfB(const Hierarchy& hierarchy, int level, int i) {
-  return hierarchy.B(level).data() +
-         static_cast<size_t>(i) * hierarchy.num_variables();
-}
-
-const double* RowOfC(const Hierarchy& hierarchy, int level, int i) {
-  return hierarchy.C(level).data() +
-         static_cast<size_t>(i) * hierarchy.num_variables();
+// Calls use(i, r_i y) for `count` rows, n entries apart.
+template <typename Use>
+void ForEachProduct(const double* rows, int n, const Span* spans, int count,
+                    const std::vector<double>& y, const Use& use) {
+  constexpr int kTogether = 64;
+  double product[kTogether];
+  for (int first = 0; first < count; first += kTogether) {
+    const int some = std::min(kTogether, count - first);
+    kernels::SpanDots(rows + static_cast<size_t>(first) * n, n, spans + first,
+                      some, y.data(), product);
+    for (int k = 0; k < some; ++k) use(first + k, product[k]);
+  }
 }
 
 Cost FindCost(const Hierarchy& hierarchy, int level,
               const std::vector<double>& y) {
   Cost sum = {0, 0};
-  const auto product = [&](const double* row, const Span& span) {
-    double value;
-    kernels::SpanDots(row, hierarchy.num_variables(), &span, 1, y.data(),
-                      &value);
-    return value;
-  };
+  const int n = hierarchy.num_variables();
   const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    const double value =
-        product(RowOfB(hierarchy, level, i), hierarchy.B_span(level)[i]);
-    const double residual = value + b[i];
-    sum.cost += weight[i] * residual * residual;
-    sum.size += weight[i] * (value * value + b[i] * b[i]);
-  }
+  ForEachProduct(hierarchy.B(level).data(), n, hierarchy.B_span(level),
+                 hierarchy.num_equalities(level), y, [&](int i, double value) {
+                   const double residual = value + b[i];
+                   sum.cost += weight[i] * residual * residual;
+                   sum.size += weight[i] * (value * value + b[i] * b[i]);
+                 });
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    const double value =
-        product(RowOfC(hierarchy, level, i), hierarchy.C_span(level)[i]);
-    const double slack = std::max({value - upper[i], lower[i] - value, 0.0});
-    sum.cost += slack * slack;
-    if (slack > 0) sum.size += value * value;
-  }
+  ForEachProduct(hierarchy.C(level).data(), n, hierarchy.C_span(level),
+                 hierarchy.num_inequalities(level), y,
+                 [&](int i, double value) {
+                   const double slack =
+                       std::max({value - upper[i], lower[i] - value, 0.0});
+                   sum.cost += slack * slack;
+                   if (slack > 0) sum.size += value * value;
+                 });
   return sum;
 }
 
@@ -56,17 +55,18 @@ Cost FindCost(const Hierarchy& hierarchy, int level,
 // is `largest`. Where the terms of all rows cancel, this is more than rounding of the cost.
 double CostOfRounding(const Hierarchy& hierarchy, int level, double largest) {
   const double rounding = tolerances::kSolutionRounding * largest;
-  const auto square = [&](const double* row) {
+  const int n = hierarchy.num_variables();
+  const auto square = [&](const double* rows, int i) {
     const double residual =
-        rounding * kernels::AbsoluteSum(row, hierarchy.num_variables());
+        rounding * kernels::AbsoluteSum(rows + static_cast<size_t>(i) * n, n);
     return residual * residual;
   };
   double sum = 0;
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    sum += hierarchy.weight(level)[i] * square(RowOfB(hierarchy, level, i));
+    sum += hierarchy.weight(level)[i] * square(hierarchy.B(level).data(), i);
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    sum += square(RowOfC(hierarchy, level, i));
+    sum += square(hierarchy.C(level).data(), i);
   }
   return sum;
 }
