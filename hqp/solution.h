@@ -38,8 +38,8 @@ struct LevelSolution {
   Eigen::VectorXd equality_residual;  ///< B y + b.
   Eigen::VectorXd slack;              ///< max(lower - C y, C y - upper, 0).
   std::vector<Side> active;           ///< By inequality row.
-  /// Number of variables minus the rank of the equalities and violated rows of
-  /// this level and the levels above; -1 if the solver did not look for it.
+  /// Number of variables minus the rank of the equalities of positive weight and the
+  /// violated rows of this level and the levels above; -1 if the solver did not look for it.
   int nullity;
   std::vector<LevelMultipliers> multipliers;  ///< By level above this one.
   /// The direction p in which this level would move y if `traded_level`, above it, were

@@ -44,8 +44,8 @@ class Solver {
   [[nodiscard]] Status Solve(const Hierarchy& hierarchy,
                              Solution* solution) noexcept;
 
-  /// Forgets the last solve. The next solve is cold: it starts from an empty
-  /// working set and y = 0.
+  /// Forgets the last solve. The next solve is cold: it starts from y = 0 and the working
+  /// set of the rows with lower = upper.
   void Forget() noexcept;
 
   /// Modelled time of the last solve [s], whether or not it was limited. It

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ int Main(int argc, char** argv) {
   app.add_option("--max-iterations", method.max_iterations,
                  "Maximum number of iterations of fast per file; a controller "
                  "allows 500 per tick")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   app.add_flag("--cold", method.cold,
                "Solve each file with a new solver, from an empty working set");

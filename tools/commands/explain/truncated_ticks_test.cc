@@ -20,7 +20,7 @@ RunStory StoryWith(const std::vector<std::pair<std::string, int>>& states) {
   return story;
 }
 
-TEST(TruncatedTicks, AreNoneIfAllAreSolved) {
+TEST(TruncatedTicks, HaveNoSentenceIfAllAreSolved) {
   const RunStory story = StoryWith({{"limit_relaxed torque.l_knee.max", 3}});
   EXPECT_EQ(SayTruncated(story, {{"ticks", 10}}), "");
 }

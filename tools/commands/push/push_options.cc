@@ -178,8 +178,8 @@ Files ParseOptions(int argc, char** argv, Overrides* overrides) {
       ->capture_default_str();
   app.add_option("--dump-solve", files.dump_solve,
                  "write the hierarchy solved at this time, s, so that hqp can "
-                 "replay it")
-      ->check(CLI::NonNegativeNumber);
+                 "solve it again")
+      ->check(CLI::Range(0.0, 1e6));
   app.add_flag("--no-report", files.no_report, "do not write report.html");
   app.add_flag("--json", files.json, "print summary.json on stdout");
   ParseCommandLine(argc, argv, &app);
