@@ -27,11 +27,17 @@ double Largest(const double* row, int n) {
   return n == 0 ? 0 : Eigen::VectorXd::Map(row, n).lpNorm<Eigen::Infinity>();
 }
 
+int NumInequalities(const std::vector<LevelCapacity>& capacity) {
+  int sum = 0;
+  for (const LevelCapacity& level : capacity) sum += level.inequalities;
+  return sum;
+}
+
 }  // namespace
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity)
-    : Certifier(num_variables, capacity, NumRows(capacity)) {}
+    : Certifier(num_variables, capacity, NumInequalities(capacity)) {}
 
 Certifier::Certifier(int num_variables,
                      const std::vector<LevelCapacity>& capacity,
@@ -184,6 +190,10 @@ void Certifier::JudgeEqualities(const Hierarchy& hierarchy, int level,
     const double residual = sums.product + b[i];
     const double size = sums.product_size + std::abs(b[i]);
     residual_[level][i] = residual;
+    // The terms of such a row would hide those of all others.
+    if (std::isinf(weight[i] * sums.squared_row_norm)) {
+      level_sums.feasibility = kInfinity;
+    }
     if (weight[i] > 0 && sums.squared_row_norm > 0) {
       farthest_ = std::max(farthest_,
                            std::abs(b[i]) / std::sqrt(sums.squared_row_norm));

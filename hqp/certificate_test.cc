@@ -214,6 +214,22 @@ TEST(Certifier, CertifiesNoRowWhoseSquareOverflows) {
   }
 }
 
+TEST(Certifier, CertifiesNoEqualityWhoseSquareOverflows) {
+  const std::vector<LevelCapacity> capacity = {{1, 0}};
+  for (const double size : {1e150, 1e155}) {
+    Hierarchy hierarchy(1, capacity);
+    EqualityBlock target = hierarchy.AddEqualities(0, 1);
+    target.B << size;
+    target.b << -size;
+    Solution solution(1, capacity);
+    solution.y << 1;
+    EvaluateLevel(hierarchy, 0, &solution);
+    Certifier certifier(1, capacity);
+    certifier.Certify(hierarchy, &solution);
+    EXPECT_EQ(solution.certificate.worst(), size < 1e154 ? 0 : INFINITY);
+  }
+}
+
 // A level that is not certified bounds nothing, so that the largest gap is that of the
 // levels above it.
 TEST(Certifier, HasNoGapOfALevelThatFails) {

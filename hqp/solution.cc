@@ -115,7 +115,7 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
     for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
       const double weight = hierarchy.weight(level)[i];
       const double size = square(hierarchy.B(level).row(i)) * weight;
-      zero += (size + hierarchy.b(level)[i] + weight) * 0;
+      zero += size * 0 + hierarchy.b(level)[i] * 0 + weight * 0;
     }
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       zero += square(hierarchy.C(level).row(i)) * 0;

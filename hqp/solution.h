@@ -121,8 +121,8 @@ void EvaluateLevel(const Hierarchy& hierarchy, int level,
 
 /// Checks the numbers of the hierarchy. Returns kNotFinite if a number is NaN
 /// or infinite; but a lower bound may be -inf, and an upper bound +inf. It also returns
-/// kNotFinite if a row is so large, above 1e150, that the square of its sum of absolute
-/// entries, times its weight, overflows. Returns
+/// kNotFinite if the square of a row's sum of absolute entries overflows, which is the case
+/// above 1.3e154, or that square times the row's weight. Returns
 /// kBadInput if lower > upper or a weight is negative, else kOptimal. Sets
 /// *failed_level to the first level with an error, or to -1.
 Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept;

@@ -144,9 +144,9 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
     }
   }
   solution->iterations = budget->iterations();
+  num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off + 1 : 0;
   // The next search must not go on from numbers that have overflowed.
   if (!solution->y.allFinite()) Forget();
-  num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off + 1 : 0;
   return solution->status;
 }
 

@@ -240,6 +240,33 @@ TEST(Solver, RefusesRowsWhoseSquaresOverflow) {
             Status::kOptimal);
 }
 
+// A target can overflow as well. The next solve is then that of a new solver.
+TEST(Solver, ForgetsASearchThatOverflows) {
+  const std::vector<LevelCapacity> capacity = {{1, 2}, {2, 0}};
+  const auto make = [&](double target) {
+    Hierarchy hierarchy(2, capacity);
+    EqualityBlock equality = hierarchy.AddEqualities(0, 1);
+    equality.B << 0.1, 0.2;
+    equality.b << target;
+    InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+    bounds.C.setIdentity();
+    bounds.lower << -1, -1;
+    bounds.upper << 1, 1;
+    hierarchy.AddEqualities(1, 2).B.setIdentity();
+    return hierarchy;
+  };
+  const Hierarchy usual = make(0.35), too_large = make(1.7e308);
+  Solution solution(2, capacity), expected(2, capacity);
+  ASSERT_EQ(Solver(2, capacity).Solve(usual, &expected), Status::kOptimal);
+  Solver solver(2, capacity);
+  ASSERT_EQ(solver.Solve(usual, &solution), Status::kOptimal);
+  EXPECT_NE(solver.Solve(too_large, &solution), Status::kOptimal);
+  ASSERT_FALSE(solution.y.allFinite());
+  EXPECT_EQ(solver.Solve(usual, &solution), Status::kOptimal);
+  EXPECT_EQ(solution.y, expected.y);
+  EXPECT_EQ(solution.iterations, expected.iterations);
+}
+
 // A row that is too small to count leaves its level diagonal. So it takes no memory of the
 // leading levels, and the answer does not depend on the solver's past.
 TEST(Solver, LeavesATinyRowOutOfADiagonalLevel) {

@@ -35,7 +35,7 @@ ActiveSetSearch::ActiveSetSearch(int num_variables,
   for (const LevelCapacity& level : capacity) {
     violated_.emplace_back(level.inequalities, Side::kNone);
     completed_.emplace_back(level.inequalities, Side::kNone);
-    most = std::max({most, level.equalities, level.inequalities});
+    most = std::max(most, level.inequalities);
   }
   value_.resize(most);
   slope_.resize(most);

@@ -55,18 +55,20 @@ Cost FindCost(const Hierarchy& hierarchy, int level,
 // is `largest`. Where the terms of all rows cancel, this is more than rounding of the cost.
 double CostOfRounding(const Hierarchy& hierarchy, int level, double largest) {
   const double rounding = tolerances::kSolutionRounding * largest;
-  const int n = hierarchy.num_variables();
-  const auto square = [&](const double* rows, int i) {
+  const auto square = [&](const auto& rows, const Span* spans, int i) {
+    const Span span = spans[i];
     const double residual =
-        rounding * kernels::AbsoluteSum(rows + static_cast<size_t>(i) * n, n);
+        rounding *
+        kernels::AbsoluteSum(rows.row(i).data() + span.first, span.size);
     return residual * residual;
   };
+  const auto B = hierarchy.B(level), C = hierarchy.C(level);
   double sum = 0;
   for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    sum += hierarchy.weight(level)[i] * square(hierarchy.B(level).data(), i);
+    sum += hierarchy.weight(level)[i] * square(B, hierarchy.B_span(level), i);
   }
   for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    sum += square(hierarchy.C(level).data(), i);
+    sum += square(C, hierarchy.C_span(level), i);
   }
   return sum;
 }

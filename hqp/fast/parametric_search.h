@@ -84,7 +84,7 @@ class ParametricSearch {
   /// Solves the leading levels of `problem` for the working set `side`, as
   /// WorkingSetProblem::Start() does with y(), and stores y() in `answer`: it remains if the
   /// path is cut off. Then moves y() to a point that meets all leading levels but the last,
-  /// and stores it in `answer` if it is better. It is the optimum of these levels and of `side` that is closest to
+  /// and stores it in `answer` if it is better. This point is the optimum of these levels and of `side` that is closest to
   /// y(), or, if that violates a bound, an optimum near y() that is found from `side`. A path
   /// that is continued begins with the working set of the last call, because its `side` is
   /// far from y(). The multipliers of `side` are not checked.

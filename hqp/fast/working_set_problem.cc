@@ -118,7 +118,7 @@ Status WorkingSetProblem::Read(const Hierarchy& hierarchy, int* failed_level) {
     for (int i = 0; i < B.rows(); ++i) {
       double& norm = B_norm_[level][i];
       work_.num_entries += hierarchy.B_span(level)[i].size;
-      zero += (norm * norm * weight[i] + b[i] + weight[i]) * 0;
+      zero += norm * norm * weight[i] * 0 + b[i] * 0 + weight[i] * 0;
       in_order &= !(weight[i] < 0);
       if (weight[i] > 0 && norm * norm * weight[i] < tolerances::kZeroRow)
         norm = 0;

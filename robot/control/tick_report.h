@@ -18,7 +18,7 @@ struct ActiveRow {
   int task;            ///< Index for Stack::task().
   int row;             ///< Index into Task::inequality_names().
   Side side;           ///< Active bound.
-  int pressing_level;  ///< Highest priority level with a multiplier on it.
+  int pressing_level;  ///< First solved level with a multiplier on it.
   double multiplier;   ///< Absolute multiplier of pressing_level.
   double slack;        ///< Violation of the row, in the scale of the row.
 };

@@ -26,8 +26,10 @@ namespace poise {
 ///     conflicts  [{at, rows: [{name, level}]}]: minimal sets of rows that
 ///                contradict each other, if the log has them. `rank` is an
 ///                alias of `level`.
-///     status     [{name, from, to, reason}]: intervals in which the status was
-///                not "ok". See docs/log.md for reason; null if there is none.
+///     status     [{name, from, to, ticks, reason}]: intervals in which the
+///                status was not "ok", apart from short pauses, and the number
+///                of such ticks. See docs/log.md for reason; null if there is
+///                none.
 ///     pushes     [{from, to, at, force}]: pushes, with the largest force, N.
 ///     touches    [{links, from, to}]: intervals in which two links touched.
 ///     stance     [{foot, phase, from, to}]: the phases of each foot in order

@@ -543,6 +543,19 @@ TEST(Explanation, ReportsMostViolatedLimitAndFailedLevel) {
             "and the levels below it are not solved.");
 }
 
+// A status with pauses has fewer ticks than its interval.
+TEST(Explanation, CountsTheTicksOfAStatus) {
+  const nlohmann::json said =
+      Explain(MakeRun("pauses",
+                      "time[s],status,active,reason\n0,truncated,,rank_4\n"
+                      "0.001,ok,,\n0.002,truncated,,rank_4\n0.003,ok,,\n",
+                      Described()));
+  EXPECT_EQ(said["status"][0]["ticks"], 2);
+  EXPECT_EQ(said["sentences"][0],
+            "0.000 s: the controller reports truncated in 2 of 3 ticks until "
+            "0.002 s: level 4 and the levels below it are not solved.");
+}
+
 // JSON allows only UTF-8. The message names the line.
 TEST(Explanation, RejectsInvalidUtf8) {
   const auto refusal = [](const std::string& name, const std::string& rows) {

@@ -109,9 +109,9 @@ void Spans::Add(const std::string& name, const LogTick& tick, double value,
     spans_.push_back({name, tick.time, tick.time, tick.time, 0, 0, {}});
   }
   Span& span = spans_[it->second];
+  if (span.num_ticks == 0 || tick.time > span.to) ++span.num_ticks;
   span.to = tick.time;
   span.end = tick.time + tick.period;
-  ++span.num_ticks;
   if (std::abs(value) < std::abs(span.peak)) return;
   span.peak = value;
   span.at = tick.time;

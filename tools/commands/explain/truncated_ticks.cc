@@ -1,23 +1,34 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/explain/truncated_ticks.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
+#include <vector>
 
 namespace poise {
 namespace {
 
 using nlohmann::json;
 
+// The state of a truncated tick, before the number of the level.
+std::string State() { return "truncated " + std::string(kLevelReason); }
+
 // Returns the ticks by the first level that was not solved.
 std::map<std::string, int> CountByLevel(const RunStory& story) {
-  const std::string state = "truncated " + std::string(kLevelReason);
   std::map<std::string, int> ticks;
   for (const Span& span : story.states.spans()) {
-    if (span.name.rfind(state, 0) != 0) continue;
-    ticks[span.name.substr(state.size())] += span.num_ticks;
+    if (span.name.rfind(State(), 0) != 0) continue;
+    ticks[span.name.substr(State().size())] += span.num_ticks;
   }
   return ticks;
+}
+
+bool IsTruncatedBefore(double time, const RunStory& story) {
+  const std::vector<Span>& spans = story.states.spans();
+  return std::any_of(spans.begin(), spans.end(), [&](const Span& span) {
+    return span.from < time && span.name.rfind(State(), 0) == 0;
+  });
 }
 
 // Returns the budget, us, or 0 if there was none.
@@ -39,25 +50,23 @@ std::string SayTruncated(const RunStory& story, const json& summary) {
     sum += ticks;
   }
   if (sum == 0) return "";
-  const json all = summary.value("ticks", json());
-  const double budget = FindBudget(summary);
   std::string text = std::to_string(sum);
-  if (all.is_number_integer())
-    text += " of " + all.dump() + " ticks";
-  else
-    text += sum == 1 ? " tick" : " ticks";
+  const json all = summary.value("ticks", json());
+  if (all.is_number_integer()) text += " of " + all.dump();
+  text += sum == 1 && !all.is_number_integer() ? " tick" : " ticks";
   text += sum == 1 ? " was" : " were";
+  text += " not solved to the last level";
+  const double budget = FindBudget(summary);
   if (budget > 0) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%g", budget);
-    text += " cut off by the budget of " + std::string(number) +
-            " us before all levels were solved";
-  } else {
-    text += " not solved to the last level";
+    char number[64];
+    std::snprintf(number, sizeof(number), " with a budget of %g us", budget);
+    text += number;
   }
   text += levels + ".";
-  const bool fell = summary.value("fell_at", json()).is_number();
-  return budget > 0 && fell ? text + " A larger budget may have helped." : text;
+  const json fell_at = summary.value("fell_at", json());
+  const bool may_have_helped = budget > 0 && fell_at.is_number() &&
+                               IsTruncatedBefore(fell_at.get<double>(), story);
+  return may_have_helped ? text + " A larger budget may have helped." : text;
 }
 
 }  // namespace poise

@@ -34,18 +34,22 @@ TEST(TruncatedTicks, AreCountedByLevelOverPauses) {
   const json summary = {
       {"ticks", 100}, {"fell_at", nullptr}, {"hqp", {{"budget_us", 300.0}}}};
   EXPECT_EQ(SayTruncated(story, summary),
-            "6 of 100 ticks were cut off by the budget of 300 us before all "
-            "levels were solved: level 2 in 1, level 4 in 5.");
+            "6 of 100 ticks were not solved to the last level with a budget of "
+            "300 us: level 2 in 1, level 4 in 5.");
 }
 
 TEST(TruncatedTicks, AdviseALargerBudgetIfTheRobotFell) {
   const RunStory story = StoryWith({{"truncated rank_3", 2}});
-  EXPECT_EQ(SayTruncated(story, {{"ticks", 50},
-                                 {"fell_at", 1.5},
-                                 {"hqp", {{"budget_us", 99.5}}}}),
-            "2 of 50 ticks were cut off by the budget of 99.5 us before all "
-            "levels were solved: level 3 in 2. A larger budget may have "
-            "helped.");
+  const auto say = [&](double fell_at) {
+    return SayTruncated(
+        story,
+        {{"ticks", 50}, {"fell_at", fell_at}, {"hqp", {{"budget_us", 99.5}}}});
+  };
+  const std::string fact =
+      "2 of 50 ticks were not solved to the last level with a budget of 99.5 "
+      "us: level 3 in 2.";
+  EXPECT_EQ(say(1.5), fact + " A larger budget may have helped.");
+  EXPECT_EQ(say(0), fact);  // The robot fell before.
 }
 
 TEST(TruncatedTicks, NeedNoBudgetAndNoSummary) {

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -137,12 +138,14 @@ void AddControlOptions(CLI::App* app, Overrides* o) {
       ->check(finite);
   app->add_option("--budget-us", o->budget_us,
                   "limit of the solver's time in a tick, us, 0 to 1e6, "
-                  "predicted from its work, so that a replay is exact; it "
-                  "makes at least two iterations (0: no limit)")
+                  "predicted from its work, so that a replay is exact; the "
+                  "solver makes at least two iterations (0: no limit)")
       ->check(finite);
-  app->add_flag("--budget-clock", o->budget_clock,
-                "count the budget by the clock, not by predicted time; a "
-                "replay then differs");
+  app->add_flag_function(
+      "--budget-clock",
+      [o](std::int64_t is_on) { o->budget_clock = is_on > 0; },
+      "count the budget by the clock, not by predicted time; a replay then "
+      "differs");
 }
 
 // Adds the options about the simulator and the sensors.

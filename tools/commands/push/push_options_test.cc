@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "poise/tests/util/test_file.h"
@@ -69,6 +70,27 @@ TEST(PushOptions, DistinguishesTasksOfFileAndOptions) {
   EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "zmp"}),
             scenario + ": " + unknown);
   EXPECT_EQ(Refusal({"--with", "frame.nose"}), unknown);
+}
+
+TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
+  const std::string scenario =
+      TestFile("budget.yaml", "control: {budget_us: 300, budget_clock: true}\n")
+          .string();
+  const auto read = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"--scenario", scenario};
+    words.insert(words.end(), options.begin(), options.end());
+    const ControlSettings& control = Read(words).loop->scenario().control;
+    return std::pair(control.budget_us, control.budget_clock);
+  };
+  EXPECT_EQ(read({}), std::pair(300.0, true));
+  EXPECT_EQ(read({"--budget-us", "200"}), std::pair(200.0, true));
+  EXPECT_EQ(read({"--budget-us", "0"}), std::pair(0.0, false));
+  EXPECT_EQ(read({"--budget-clock=false"}), std::pair(300.0, false));
+  EXPECT_EQ(Refusal({"--budget-us", "-1"}),
+            "--budget-us is -1, must be 0 to 1e+06 us");
+  EXPECT_EQ(Refusal({"--budget-clock"}),
+            "--budget-clock is true without a budget_us, set budget_us as "
+            "well");
 }
 
 // A value in the file may be invalid if an option replaces it.
