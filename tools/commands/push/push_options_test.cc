@@ -79,7 +79,8 @@ TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
   const auto read = [&](const std::vector<std::string>& options) {
     std::vector<std::string> words = {"--scenario", scenario};
     words.insert(words.end(), options.begin(), options.end());
-    const ControlSettings& control = Read(words).loop->scenario().control;
+    const PushOptions push = Read(words);
+    const ControlSettings& control = push.loop->scenario().control;
     return std::pair(control.budget_us, control.budget_clock);
   };
   EXPECT_EQ(read({}), std::pair(300.0, true));
