@@ -246,6 +246,7 @@ TEST(Certifier, HasNoGapOfALevelThatFails) {
   EXPECT_EQ(solution.failed_level, 1);
   EXPECT_NEAR(certifier.gap(1), 0.5,
               1e-14);  // The whole cost, and its rounding.
+  // Level 0 is met exactly. The gap of level 1 is all of its cost.
   EXPECT_LT(solution.certificate.relative_gap, 1e-9);
 }
 

@@ -241,11 +241,12 @@ TEST(SolverBudget, NeverGetsWorseWhileItMeetsTheLevelsBeforeTheLast) {
   set(-0.48687, -0.113943, 0.873413, 1.04694, 0);
   ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
   set(0.259948, 0.632875, 0.0885357, 0.262061, 0.815315);
-  solver.max_modelled_seconds = 1e-9;
+  solver.max_modelled_seconds = 1e-9;  // Each solve makes two iterations only.
   double last = std::numeric_limits<double>::infinity();
   Status status = Status::kIterationLimit;
   for (int i = 0; i < 10 && status != Status::kOptimal; ++i) {
     status = solver.Solve(hierarchy, &solution);
+    // A sum of three squares has a rounding of some 1e-16.
     EXPECT_LE(solution.levels[1].cost, last * (1 + 1e-12)) << i;
     last = solution.levels[1].cost;
   }

@@ -15,12 +15,14 @@ namespace poise {
 /// A row that is active at the solution of a tick. Stack::RowName() returns its
 /// name.
 struct ActiveRow {
-  int task;            ///< Index for Stack::task().
-  int row;             ///< Index into Task::inequality_names().
-  Side side;           ///< Active bound.
-  int pressing_level;  ///< First solved level with a multiplier on it.
-  double multiplier;   ///< Absolute multiplier of pressing_level.
-  double slack;        ///< Violation of the row, in the scale of the row.
+  int task;   ///< Index for Stack::task().
+  int row;    ///< Index into Task::inequality_names().
+  Side side;  ///< Active bound.
+  /// The row's own level if it has a slack, else the first solved level with a multiplier on
+  /// the row.
+  int pressing_level;
+  double multiplier;  ///< Absolute multiplier of pressing_level.
+  double slack;       ///< Violation of the row, in the scale of the row.
 };
 
 /// Result of one task in a tick.

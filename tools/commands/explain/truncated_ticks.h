@@ -15,7 +15,7 @@ inline constexpr std::string_view kLevelReason = "rank_";
 
 /// Returns a sentence about the ticks that were not solved to the last level, by level, or
 /// an empty text if there are none. It names the budget, and advises a larger one if the
-/// robot fell.
+/// robot fell after such a tick.
 /// @param summary  summary.json; may lack any key.
 std::string SayTruncated(const RunStory& story, const nlohmann::json& summary);
 
