@@ -62,6 +62,13 @@ double AsNumber(py::handle value, const char* name) {
                               (is_large ? " of magnitude below 1.8e308" : ""));
 }
 
+double AsNotNegative(py::handle value, const char* name) {
+  const double number = AsNumber(value, name);
+  if (number >= 0) return number;
+  throw std::invalid_argument(std::string(name) + " is " + Shown(value) +
+                              ", must be 0 or more");
+}
+
 int AsInteger(py::handle value, const char* name, int lower, int upper) {
   const double number = AsNumber(value, name);
   if (!(number >= lower && number <= upper && number == std::floor(number))) {

@@ -12,6 +12,9 @@ namespace poise {
 /// std::invalid_argument, which Python sees as poise.InputError.
 double AsNumber(pybind11::handle value, const char* name);
 
+/// Returns an argument that is a number of 0 or more. Throws as AsNumber().
+double AsNotNegative(pybind11::handle value, const char* name);
+
 /// Returns an argument that is a whole number from lower to upper. Throws as
 /// AsNumber().
 int AsInteger(pybind11::handle value, const char* name, int lower, int upper);

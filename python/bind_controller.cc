@@ -24,7 +24,8 @@ namespace {
 // Makes a controller with the tasks of the robot's profile.
 std::shared_ptr<PythonController> MakeController(
     py::handle robot_argument, py::handle dt, py::handle friction,
-    py::handle max_iterations, py::handle frames, py::handle own_tasks) {
+    py::handle max_iterations, py::handle frames, py::handle own_tasks,
+    py::handle max_modelled_seconds) {
   const auto& robot = AsObject<PythonRobot>(robot_argument, "robot");
   ControllerOptions options;
   options.add_tasks = TasksToAdd(own_tasks);
@@ -32,6 +33,8 @@ std::shared_ptr<PythonController> MakeController(
   options.friction = AsNumber(friction, "friction");
   options.max_iterations = AsInteger(max_iterations, "max_iterations", 1,
                                      std::numeric_limits<int>::max());
+  options.max_modelled_seconds =
+      AsNumber(max_modelled_seconds, "max_modelled_seconds");
   options.frames = AsTexts(frames, "frames");
   const YAML::Node tasks = robot.profile.tasks;
   if (tasks.IsDefined()) {
@@ -179,9 +182,12 @@ void BindController(py::module_* module) {
       py::init(&MakeController), py::arg("robot"), py::arg("dt") = 1e-3,
       py::arg("friction") = 0.5, py::arg("max_iterations") = 500,
       py::arg("frames") = py::tuple(), py::arg("tasks") = py::tuple(),
+      py::arg("max_modelled_seconds") = 0,
       "Makes a controller with the tasks of the robot's profile. dt: s. "
       "friction: the coefficient that the controller assumes. frames: links "
-      "with a task 'frame.NAME'. tasks: Tasks of your own.");
+      "with a task 'frame.NAME'. tasks: Tasks of your own. "
+      "max_modelled_seconds: limit of the solver's predicted time in a tick, "
+      "s; 0: no limit.");
   controller.def(
       "start", Start, py::arg("state"),
       "Sets the reference to standing still with the feet where they are.");

@@ -124,6 +124,10 @@ void BindTickReport(py::module_* module) {
       [](const PythonReport& self) { return self.report.iterations; },
       "The solver's iterations.");
   report.def_property_readonly(
+      "modelled_seconds",
+      [](const PythonReport& self) { return self.report.modelled_seconds; },
+      "The predicted time of the solve, s. It depends on the work alone.");
+  report.def_property_readonly(
       "certificate",
       [](const PythonReport& self) { return self.report.certificate; },
       "The Certificate of the solution.");

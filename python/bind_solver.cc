@@ -36,14 +36,16 @@ class PythonSolver {
           " variables, must have " + std::to_string(n_));
     }
     const Exclusive exclusive(&in_use_, "this Solver");
-    // Another thread may change these two once the lock is released.
+    // Another thread may change these three once the lock is released.
     PythonHierarchy problem = hierarchy;
     const int most = max_iterations;
+    const double longest = max_modelled_seconds;
     const py::gil_scoped_release release;
     Reserve(SizesOf(problem));
     CopyRows(problem, &*rows_);
     auto solved = std::make_shared<PythonSolution>(std::move(problem));
     solver_->max_iterations = most;
+    solver_->max_modelled_seconds = longest;
     const auto start = std::chrono::steady_clock::now();
     (void)solver_->Solve(*rows_, &solved->solution);
     solved->microseconds = std::chrono::duration<double, std::micro>(
@@ -60,6 +62,7 @@ class PythonSolver {
   int n() const { return n_; }
 
   int max_iterations = 10000;
+  double max_modelled_seconds = 0;
 
  private:
   // Makes a new solver, which starts cold, if a level is larger than before.
@@ -124,6 +127,15 @@ void BindSolver(py::module_* module) {
                                         std::numeric_limits<int>::max());
       },
       "The largest number of factorisations of a solve.");
+  solver.def_property(
+      "max_modelled_seconds",
+      [](const PythonSolver& self) { return self.max_modelled_seconds; },
+      [](PythonSolver& self, py::handle value) {
+        self.max_modelled_seconds =
+            AsNotNegative(value, "max_modelled_seconds");
+      },
+      "The limit of the predicted time of a solve, s; 0: no limit. The next "
+      "solve goes on where it ended this one.");
   solver.def(
       "solve",
       [](PythonSolver& self, py::handle hierarchy) {

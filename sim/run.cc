@@ -143,8 +143,9 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   // steps. So a run with many or slow ticks can be stopped quickly, too.
   const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
   const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
-  std::vector<float> us;
+  std::vector<float> us, modelled_us;
   us.reserve(ticks);
+  modelled_us.reserve(ticks);
   StepWatch step_watch;
   CommandWatch command_watch(robot, scenario,
                              loop->controller().stance().settings());
@@ -173,6 +174,8 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     if (record.gait != nullptr) step_watch.Look(record);
     if (recorder != nullptr) recorder->Record(record);
     us.push_back(static_cast<float>(record.microseconds));
+    modelled_us.push_back(
+        static_cast<float>(1e6 * record.report.modelled_seconds));
     Count(record, robot.model, scenario.plant.torque_scale, &result);
     if (progress && result.ticks % between == 0) {
       result.interrupted = !progress(static_cast<double>(result.ticks) /
@@ -205,6 +208,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
     result.commanded_done = false;
   }
   result.tick_us = Summarize(std::move(us));
+  result.modelled_us = Summarize(std::move(modelled_us));
   if (recorder != nullptr) {
     recorder->Flush();
     result.log_sha256 = recorder->log_sha256();

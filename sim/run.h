@@ -18,7 +18,7 @@
 
 namespace poise {
 
-/// The distribution of the controller's times over a run, us.
+/// The distribution of times over the ticks of a run, us.
 struct TickTimes {
   double median = 0;
   double p99 = 0;
@@ -36,7 +36,8 @@ struct RunResult {
   double duration = 0;  ///< Simulated time, s; shorter after a fall.
   bool interrupted = false;
   long ticks = 0;
-  TickTimes tick_us;
+  TickTimes tick_us;      ///< Computing time of the controller.
+  TickTimes modelled_us;  ///< Solver::modelled_seconds(), the same in each run.
   int iterations_max = 0;
   double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
   double gap_max = 0;  ///< Largest Certificate::relative_gap of all ticks.

@@ -38,6 +38,11 @@ int Main(int argc, char** argv) {
                  "allows 500 per tick")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
+  app.add_option("--budget-us", method.budget_us,
+                 "Limit of the predicted time of each solve by fast, us, as of "
+                 "push --budget-us; 0: no limit")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   app.add_flag("--cold", method.cold,
                "Solve each file with a new solver, from an empty working set");
   app.add_flag("--json", json,

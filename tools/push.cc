@@ -34,11 +34,10 @@ int Push(const poise::PushOptions& options) {
   const poise::Robot& robot = options.loop->robot();
   const poise::Scenario& scenario = options.loop->scenario();
   std::string dumped;
-  if (options.dump_solve) {
-    dumped =
-        "\nTo replay the solve: bazel run //tools:hqp -- " +
-        poise::DumpSolve({robot, scenario}, *options.dump_solve, options.out)
-            .string();
+  if (options.dumped) {
+    dumped = "\nTo solve again: bazel run //tools:hqp -- " +
+             poise::DumpSolve({robot, scenario}, *options.dumped, options.out)
+                 .string();
   }
   const auto [result, step_Ns, files] = poise::RecordRun(
       options.loop.get(), options.out, ShowProgress, options.log);
@@ -63,6 +62,9 @@ int main(int argc, char** argv) {
     const poise::PushOptions options = poise::ReadPushOptions(argc, argv);
     poise::PrintWarnings(options.robot_file.string(), options.loop->robot(),
                          options.findings);
+    const std::string late =
+        poise::BudgetWarning(options.loop->scenario().control);
+    if (!late.empty()) std::cerr << late << "\n";
     std::signal(SIGINT, [](int) { g_interrupted = 1; });
     std::signal(SIGTERM, [](int) { g_interrupted = 1; });
     return Push(options);

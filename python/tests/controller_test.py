@@ -54,6 +54,30 @@ class ControllerTest(unittest.TestCase):
         vdot = controller.report.y[:tree.nv]
         self.assertLess((tree.com(ROBOT.posture).J @ vdot)[2], -0.1)
 
+    def test_a_budget_cuts_ticks_off(self):
+        # The CoM goes forward until limits of torques and feet are active.
+        def statuses(budget):
+            controller = poise.Controller(ROBOT, max_modelled_seconds=budget)
+            controller.start(standing())
+            found = []
+            for tick in range(5):
+                controller.com_reference = ROBOT.tree.com(
+                    ROBOT.posture).p + [0.5 * tick, 0, 0]
+                controller.update(standing(1e-3 * (tick + 1)))
+                found.append((controller.report.status,
+                              controller.report.modelled_seconds))
+            return found
+
+        full, cut = statuses(0), statuses(20e-6)
+        self.assertNotIn("truncated", [status for status, _ in full])
+        self.assertIn("truncated", [status for status, _ in cut])
+        longest = [max(time for _, time in each) for each in (full, cut)]
+        self.assertGreater(longest[0], longest[1])
+        self.assertGreater(longest[1], 0)
+        with self.assertRaisesRegex(
+                poise.InputError, "max_modelled_seconds is -1.*0 or more"):
+            poise.Controller(ROBOT, max_modelled_seconds=-1)
+
     def test_fails_safe_on_nan(self):
         controller = started()
         state = standing(1e-3)

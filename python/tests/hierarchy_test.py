@@ -79,6 +79,28 @@ class SolverTest(unittest.TestCase):
         np.testing.assert_allclose(
             poise.Solver(4).solve(hierarchy).y, y, atol=1e-12)
 
+    def test_a_solve_with_a_budget_goes_on_where_it_ended(self):
+        # A target that is far away, behind 20 bounds in other directions.
+        n = 20
+        hierarchy = poise.Hierarchy(n)
+        hierarchy.add_level(C=np.eye(n), upper=1 + np.arange(n))
+        hierarchy.add_level(B=np.ones((n, n)) + np.eye(n), b=-200 * np.ones(n))
+        solver = poise.Solver(n)
+        self.assertEqual(solver.max_modelled_seconds, 0)
+        solver.max_modelled_seconds = 1e-6
+        costs, status = [], ""
+        while status != "optimal":
+            solution = solver.solve(hierarchy)
+            status = solution.status
+            costs.append(solution.levels[1].cost)
+            self.assertLess(len(costs), 100)
+        self.assertGreater(len(costs), 2)
+        wanted = poise.Solver(n).solve(hierarchy).levels[1].cost
+        np.testing.assert_allclose(costs[-1], wanted, rtol=1e-9)
+        with self.assertRaisesRegex(
+                poise.InputError, "max_modelled_seconds is nan.*0 or more"):
+            solver.max_modelled_seconds = float("nan")
+
     def test_starts_from_the_last_answer(self):
         random = np.random.default_rng(2)
         hierarchy = poise.Hierarchy(20)

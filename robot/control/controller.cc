@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "poise/robot/control/default_stack.h"
 #include "poise/robot/control/fail_safe.h"
@@ -26,6 +27,22 @@ constexpr double kFollowing = 0.05;
 
 // Joint damping of the fail-safe command, for robot/models/humanoid.urdf.
 constexpr double kFailSafeDamping = 10;  // 1/s.
+
+void CheckTimes(const ControllerOptions& options) {
+  if (!(options.dt > 0 && options.dt < 1)) {
+    throw std::invalid_argument("control period is " +
+                                std::to_string(options.dt) +
+                                " s, must be above 0 and below 1");
+  }
+  for (const auto& [name, limit] :
+       {std::pair("max_modelled_seconds", options.max_modelled_seconds),
+        std::pair("max_seconds", options.max_seconds)}) {
+    if (limit >= 0) continue;
+    throw std::invalid_argument(std::string(name) + " is " +
+                                std::to_string(limit) +
+                                " s, must be 0 or more");
+  }
+}
 
 const Robot& Checked(const Robot& robot) {
   if (robot.feet.empty()) {
@@ -98,11 +115,7 @@ Controller::Controller(const Robot& robot, const ControllerOptions& options)
       solution_(NumVariables(robot_), stack_.capacity()),
       disturbance_(scale_),
       unmodelled_(robot_.model.tree.nv(), scale_) {
-  if (!(options.dt > 0 && options.dt < 1)) {
-    throw std::invalid_argument("control period is " +
-                                std::to_string(options.dt) +
-                                " s, must be above 0 and below 1");
-  }
+  CheckTimes(options);
   if (!stack_.SetParameter("friction", "mu", options.friction) ||
       !stack_.SetParameter("yaw", "mu", options.friction)) {
     throw std::invalid_argument("friction is " +
@@ -229,6 +242,7 @@ void Controller::WriteTasks(const State& state) noexcept {
 bool Controller::Solve() noexcept {
   const Status solved = solver_.Solve(hierarchy_, &solution_);
   stack_.Report(solution_, &report_);
+  report_.modelled_seconds = solver_.modelled_seconds();
   report_.certificate = solution_.certificate;
   report_.dynamics_residual =
       DynamicsResidual(tick_, contacts_, solution_.y, force_scale_);

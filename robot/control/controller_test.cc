@@ -366,6 +366,13 @@ TEST_F(ControllerTest, RejectsInvalidOptionsAndRobots) {
   EXPECT_EQ(message(options),
             "control period is 1.000000 s, must be above 0 and below 1");
   options = {};
+  options.max_modelled_seconds = -1e-3;
+  EXPECT_EQ(message(options),
+            "max_modelled_seconds is -0.001000 s, must be 0 or more");
+  options = {};
+  options.max_seconds = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message(options), "max_seconds is nan s, must be 0 or more");
+  options = {};
   options.friction = -0.1;
   EXPECT_EQ(message(options), "friction is -0.100000, must be 0 to 10");
   options = {};

@@ -61,6 +61,7 @@ struct TickReport {
   std::optional<ActiveRow> relaxed;
   int failed_level = 0;  ///< Priority level that was not solved; 0: none.
   int iterations = 0;    ///< Solver iterations.
+  double modelled_seconds = 0;  ///< Solver::modelled_seconds() of this tick, s.
   /// DynamicsResidual() of y; above 1e-9 the tick fails safe.
   double dynamics_residual = 0;
   Eigen::VectorXd y;  ///< [v̇; λ], λ by foot, about and in the axes of C.
@@ -79,7 +80,7 @@ struct TickReport {
   void ClearAnswer() noexcept {
     solver_status = Status::kOptimal;
     failed_level = iterations = 0;
-    dynamics_residual = 0;
+    modelled_seconds = dynamics_residual = 0;
     y.setZero();
     for (TaskReport& task : tasks) task.residual = task.slack = 0;
     certificate = {};

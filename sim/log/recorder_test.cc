@@ -121,8 +121,15 @@ TEST(Recorder, WritesTheTrueStateAndTheControllerOutput) {
   }
   // timing.csv has one row per tick.
   const auto timing = Split(Contents(Folder("recorded") / "timing.csv"), '\n');
-  EXPECT_EQ(timing[0], "tick,us,iterations");
+  EXPECT_EQ(timing[0], "tick,us,iterations,modelled_us");
   EXPECT_EQ(timing[3].substr(0, 2), "2,");
+  // `record` is that of the last tick. The file has two digits after the point.
+  const std::vector<std::string> cells = Split(timing[3], ',');
+  ASSERT_EQ(cells.size(), 4u);
+  EXPECT_EQ(std::stoi(cells[2]), record.report.iterations);
+  EXPECT_GT(record.report.modelled_seconds, 0);
+  EXPECT_NEAR(std::stod(cells[3]), 1e6 * record.report.modelled_seconds,
+              0.0051);
   EXPECT_EQ(timing.size(), 5u);  // An empty part follows the last line.
 }
 

@@ -95,6 +95,13 @@ std::string LogName(std::string name) {
   return name;
 }
 
+Json Times(const TickTimes& us) {
+  return {{"median", us.median},
+          {"p99", us.p99},
+          {"p999", us.p999},
+          {"max", us.max}};
+}
+
 Json Rows(const std::vector<StackRow>& rows) {
   Json object = Json::object();
   for (const StackRow& row : rows) {
@@ -117,6 +124,11 @@ __attribute__((format(printf, 2, 3))) std::string Line(const char* label,
   va_end(arguments);
   std::snprintf(line, sizeof(line), "  %-22s %s\n", label, text);
   return line;
+}
+
+std::string TimesLine(const char* label, const TickTimes& us) {
+  return Line(label, "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
+              us.median, us.p99, us.p999, us.max);
 }
 
 // Returns one push as a line of the table. Several pushes need their start
@@ -243,12 +255,10 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
       result.commanded_done ? Json(*result.commanded_done) : Json(nullptr);
   json["not_done"] = result.not_done;
   json["ticks"] = result.ticks;
-  json["tick_us"] = {{"median", result.tick_us.median},
-                     {"p99", result.tick_us.p99},
-                     {"p999", result.tick_us.p999},
-                     {"max", result.tick_us.max}};
+  json["tick_us"] = Times(result.tick_us);
   json["hqp"] = {{"iterations_max", result.iterations_max},
                  {"failures", result.failures},
+                 {"modelled_us", Times(result.modelled_us)},
                  {"certificate_max", Number(result.certificate_max)},
                  {"budget_us", Number(scenario.control.budget_us)},
                  {"budget_clock", scenario.control.budget_clock}};
@@ -314,10 +324,8 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   }
   table += Line("ticks", "%ld; %d of them not solved to the last level",
                 result.ticks, result.failures);
-  table +=
-      Line("time per tick", "%.0f us (99 %%: %.0f, 99.9 %%: %.0f, max %.0f)",
-           result.tick_us.median, result.tick_us.p99, result.tick_us.p999,
-           result.tick_us.max);
+  table += TimesLine("time per tick", result.tick_us);
+  table += TimesLine("predicted per solve", result.modelled_us);
   table +=
       Line("speed", "%.1f x real time", result.duration / result.wall_seconds);
   return table;

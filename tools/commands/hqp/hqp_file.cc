@@ -19,7 +19,8 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMostVariables = 10000;
+// The solver's memory grows with the square of their number, 0.3 GB for this one.
+constexpr int kMostVariables = 2000;
 
 [[noreturn]] void Refuse(const std::string& where, const std::string& what) {
   throw std::invalid_argument(where + ": " + what);
@@ -35,18 +36,30 @@ void ListOthers(const json& object, const std::string& where,
   }
 }
 
+// Returns a value for a message. A long one is cut, so that the message stays one line.
+std::string Show(const json& value) {
+  constexpr size_t kMost = 40;
+  const std::string text =
+      value.dump(-1, ' ', true, json::error_handler_t::replace);
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
 // Returns the array `key` of an object, or an empty array if the key is absent.
 const json& Array(const json& object, const char* key,
                   const std::string& where) {
   static const json kEmpty = json::array();
   const auto found = object.find(key);
   if (found == object.end()) return kEmpty;
-  if (!found->is_array()) Refuse(where + "." + key, "must be an array");
+  if (!found->is_array()) {
+    Refuse(where + "." + key, "is " + Show(*found) + ", must be an array");
+  }
   return *found;
 }
 
 double Number(const json& value, const std::string& where) {
-  if (!value.is_number()) Refuse(where, "must be a number");
+  if (!value.is_number()) {
+    Refuse(where, "is " + Show(value) + ", must be a number");
+  }
   return value.get<double>();
 }
 
@@ -70,14 +83,15 @@ void RefuseCrossed(const InequalityBlock& block, const std::string& lower,
 
 void RefuseLength(const json& array, size_t wanted, const std::string& where) {
   if (array.size() == wanted) return;
-  Refuse(where, "has " + std::to_string(array.size()) + " entries, must have " +
-                    std::to_string(wanted));
+  Refuse(where, "has " + std::to_string(array.size()) +
+                    (array.size() == 1 ? " entry" : " entries") +
+                    ", must have " + std::to_string(wanted));
 }
 
 template <typename Matrix>
 void ReadRow(const json& row, int i, const std::string& where, Matrix* to) {
   const std::string name = where + "[" + std::to_string(i) + "]";
-  if (!row.is_array()) Refuse(name, "must be an array");
+  if (!row.is_array()) Refuse(name, "is " + Show(row) + ", must be an array");
   RefuseLength(row, to->cols(), name);
   for (int j = 0; j < to->cols(); ++j) {
     (*to)(i, j) = Number(row[j], name + "[" + std::to_string(j) + "]");
@@ -160,7 +174,7 @@ int Integer(const json& file, const char* key, int low, int high) {
   const auto found = file.find(key);
   if (found == file.end()) Refuse(key, "is missing");
   if (!found->is_number_integer() || *found < low || *found > high) {
-    Refuse(key, "is " + found->dump() + ", must be a whole number from " +
+    Refuse(key, "is " + Show(*found) + ", must be a whole number from " +
                     std::to_string(low) + " to " + std::to_string(high));
   }
   return found->get<int>();
@@ -195,8 +209,11 @@ ordered_json Rows(const Eigen::Map<const RowMajorMatrix>& matrix) {
 HqpProblem ReadHqp(const std::string& text) {
   const json file = ParseJson(text);
   if (!file.is_object()) Refuse("file", "must be an object");
-  if (file.value("format", json()) != "hqp-1") {
-    Refuse("format", "must be \"hqp-1\"");
+  const auto format = file.find("format");
+  if (format == file.end() || *format != "hqp-1") {
+    Refuse("format",
+           (format == file.end() ? "is missing" : "is " + Show(*format)) +
+               ", must be \"hqp-1\"");
   }
   const int n = Integer(file, "variables", 1, kMostVariables);
   const json& levels = Array(file, "levels", "file");
@@ -210,7 +227,9 @@ HqpProblem ReadHqp(const std::string& text) {
   std::vector<LevelCapacity> capacity;
   for (size_t level = 0; level < levels.size(); ++level) {
     const std::string where = "levels[" + std::to_string(level) + "]";
-    if (!levels[level].is_object()) Refuse(where, "must be an object");
+    if (!levels[level].is_object()) {
+      Refuse(where, "is " + Show(levels[level]) + ", must be an object");
+    }
     const auto rows = [&](const char* key) {
       return static_cast<int>(Array(levels[level], key, where).size());
     };

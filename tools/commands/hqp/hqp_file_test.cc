@@ -183,27 +183,33 @@ TEST(ReadHqp, RejectsInOneLine) {
   EXPECT_NE(Refusal("{").find("not JSON"), std::string::npos);
   EXPECT_EQ(Refusal("{").find('\n'), std::string::npos);
   EXPECT_EQ(Refusal("[]"), "file: must be an object");
-  EXPECT_EQ(Refusal("{}"), "format: must be \"hqp-1\"");
+  EXPECT_EQ(Refusal("{}"), "format: is missing, must be \"hqp-1\"");
+  EXPECT_EQ(Refusal(R"({"format": "hqp-2"})"),
+            R"(format: is "hqp-2", must be "hqp-1")");
   EXPECT_EQ(Refusal(R"({"format": "hqp-1"})"), "variables: is missing");
   EXPECT_EQ(Refusal(R"({"format": "hqp-1", "variables": 0})"),
-            "variables: is 0, must be a whole number from 1 to 10000");
+            "variables: is 0, must be a whole number from 1 to 2000");
   EXPECT_EQ(Refusal(head + "[]}"), "levels: must have at least one level");
-  EXPECT_EQ(Refusal(head + "3}"), "file.levels: must be an array");
-  EXPECT_EQ(Refusal(head + "[3]}"), "levels[0]: must be an object");
+  EXPECT_EQ(Refusal(head + "3}"), "file.levels: is 3, must be an array");
+  EXPECT_EQ(Refusal(head + "[3]}"), "levels[0]: is 3, must be an object");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2]]}]})"),
             "levels[0].b: has 0 entries, must have 1");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1]], "b": [1]}]})"),
-            "levels[0].B[0]: has 1 entries, must have 2");
+            "levels[0].B[0]: has 1 entry, must have 2");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, "x"]], "b": [1]}]})"),
-            "levels[0].B[0][1]: must be a number");
+            R"(levels[0].B[0][1]: is "x", must be a number)");
+  // A long value is cut.
+  EXPECT_EQ(
+      Refusal(head + "[\"" + std::string(60, 'x') + "\"]}"),
+      "levels[0]: is \"" + std::string(39, 'x') + "..., must be an object");
   EXPECT_EQ(Refusal(head + R"([{"A": [[1, 2]], "a": [null]}]})"),
-            "levels[0].a[0]: must be a number");
+            "levels[0].a[0]: is null, must be a number");
   EXPECT_EQ(Refusal(head + R"([{"C": [[1, 2]], "lower": [1, 2]}]})"),
             "levels[0].lower: has 2 entries, must have 1");
   EXPECT_EQ(Refusal(head + R"([{"B": [], "b": [], "weight": [1]}]})"),
-            "levels[0].weight: has 1 entries, must have 0");
+            "levels[0].weight: has 1 entry, must have 0");
   EXPECT_EQ(Refusal(head + R"([{}], "y_lower": [1]})"),
-            "y_lower: has 1 entries, must have 2");
+            "y_lower: has 1 entry, must have 2");
   EXPECT_EQ(Refusal(head + R"([{}], "y_lower": [1, 1], "y_bounds_level": 1})"),
             "y_bounds_level: is 1, must be a whole number from 0 to 0");
   EXPECT_EQ(Refusal(head + R"([{}], "y_bounds_level": 1})"),

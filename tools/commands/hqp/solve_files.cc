@@ -63,6 +63,7 @@ Status HqpSequence::Dispatch(const HqpProblem& problem, Solution* solution) {
   if (method_.name == "fast") {
     if (solver_ == nullptr) solver_ = std::make_unique<Solver>(n, room_);
     solver_->max_iterations = method_.max_iterations;
+    solver_->max_modelled_seconds = 1e-6 * method_.budget_us;
     return solver_->Solve(problem.hierarchy, solution);
   }
   return Cascade(n, problem.capacity,

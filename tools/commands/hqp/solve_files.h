@@ -19,6 +19,7 @@ HqpProblem LoadHqp(const std::string& name);
 struct HqpMethod {
   std::string name = "fast";   ///< Or "svd" or "cod" for the cascade.
   int max_iterations = 10000;  ///< Limit for "fast"; no tick limits the time.
+  double budget_us = 0;        ///< 1e6 Solver::max_modelled_seconds of "fast".
   bool cold = false;           ///< True: each problem gets a new solver.
 };
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace poise {
 namespace {
 
@@ -34,6 +36,36 @@ TEST(HqpSequence, StartsColdIfRequested) {
   HqpMethod method;
   method.cold = true;
   EXPECT_EQ(SecondIterations(method), 2);
+}
+
+// A push of 10 units against 20 bounds needs a change of the working set for each, a budget
+// of 1 us allows two iterations.
+TEST(HqpSequence, LimitsThePredictedTime) {
+  constexpr int kRows = 20;
+  const std::vector<LevelCapacity> capacity = {{0, kRows}, {kRows, 0}};
+  HqpProblem problem{capacity, Hierarchy(kRows, capacity), {}};
+  InequalityBlock bounds = problem.hierarchy.AddInequalities(0, kRows);
+  bounds.C.setIdentity();
+  EqualityBlock target = problem.hierarchy.AddEqualities(1, kRows);
+  for (int i = 0; i < kRows; ++i) {
+    bounds.upper[i] = i + 1;
+    target.B.row(i).setOnes();
+    target.B(i, i) = 2;
+    target.b[i] = -10 * kRows;
+  }
+  problem.hierarchy.FindSpans();
+  for (const double budget_us : {0.0, 1.0}) {
+    HqpMethod method;
+    method.budget_us = budget_us;
+    HqpSequence sequence(method, {problem});
+    Solution solution(kRows, capacity);
+    double microseconds;
+    EXPECT_EQ(sequence.Solve(problem, &solution, &microseconds),
+              budget_us == 0 ? Status::kOptimal : Status::kIterationLimit);
+    if (budget_us > 0) {
+      EXPECT_EQ(solution.iterations, 2);
+    }
+  }
 }
 
 TEST(HqpSequence, SolvesWithTheCascade) {

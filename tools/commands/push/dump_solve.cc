@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/push/dump_solve.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -11,28 +12,75 @@
 #include "poise/tools/commands/hqp/hqp_file.h"
 
 namespace poise {
+namespace {
 
-std::filesystem::path DumpSolve(const Experiment& experiment, double time,
-                                const std::filesystem::path& folder) {
-  const auto& [robot, scenario] = experiment;
-  char name[32];
-  std::snprintf(name, sizeof name, "solve_%.3f.json", time);
-  if (!(time >= 0 && time < scenario.duration)) {
-    throw std::invalid_argument("the solve at " + std::to_string(time) +
+// Returns a time for the name of a file, with as many digits as tell two ticks apart.
+std::string Text(double time, double dt, int width = 0) {
+  const int digits =
+      std::max(3, static_cast<int>(std::ceil(-std::log10(dt) - 1e-9)));
+  char text[64];
+  std::snprintf(text, sizeof text, "%0*.*f", width, digits, time);
+  return text;
+}
+
+void Check(const DumpedTicks& ticks, double duration) {
+  if (!(ticks.last >= 0 && ticks.last < duration)) {
+    throw std::invalid_argument("the solve at " + std::to_string(ticks.last) +
                                 " s is outside the scenario, which ends at " +
-                                std::to_string(scenario.duration) + " s");
+                                std::to_string(duration) + " s");
   }
-  ClosedLoop loop(robot, scenario);
-  const long ticks = std::lround(time / scenario.control.dt);
-  for (long tick = 0; tick <= ticks; ++tick) loop.Tick();
-  std::filesystem::create_directories(folder);
-  const std::filesystem::path file = folder / name;
+  if (!(ticks.first >= 0 && ticks.first <= ticks.last)) {
+    throw std::invalid_argument("--dump-from is " +
+                                std::to_string(ticks.first) +
+                                " s, must not be after --dump-solve, " +
+                                std::to_string(ticks.last) + " s");
+  }
+}
+
+void Write(const Hierarchy& hierarchy, const std::filesystem::path& file) {
   std::ofstream stream(file);
-  stream << WriteHqp(loop.controller().hierarchy()) << '\n';
+  stream << WriteHqp(hierarchy) << '\n';
   if (!stream.flush()) {
     throw std::invalid_argument(file.string() + ": cannot be written");
   }
-  return file;
+}
+
+// Makes a folder without files of another dump.
+void MakeEmpty(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("solve_", 0) == 0) std::filesystem::remove(entry.path());
+  }
+}
+
+}  // namespace
+
+std::filesystem::path DumpSolve(const Experiment& experiment,
+                                const DumpedTicks& ticks,
+                                const std::filesystem::path& folder) {
+  const auto& [robot, scenario] = experiment;
+  const double dt = scenario.control.dt;
+  Check(ticks, scenario.duration);
+  const long first = std::lround(ticks.first / dt);
+  const long last = std::lround(ticks.last / dt);
+  const std::string last_text = Text(ticks.last, dt);
+  const bool is_one = first == last;
+  const std::filesystem::path to =
+      is_one ? folder
+             : folder / ("solves_" + Text(ticks.first, dt) + "_" + last_text);
+  std::filesystem::create_directories(to);
+  if (!is_one) MakeEmpty(to);
+  ClosedLoop loop(robot, scenario);
+  for (long tick = 0; tick <= last; ++tick) {
+    loop.Tick();
+    if (tick < first) continue;
+    const std::string time = is_one ? last_text
+                                    : Text(static_cast<double>(tick) * dt, dt,
+                                           static_cast<int>(last_text.size()));
+    Write(loop.controller().hierarchy(), to / ("solve_" + time + ".json"));
+  }
+  return to / ("solve_" + (is_one ? last_text : "*") + ".json");
 }
 
 }  // namespace poise

@@ -40,7 +40,7 @@ struct Files {
   std::string scenario = "strong_push", robot, profile, save_profile, out,
               log = "csv";
   std::vector<std::string> packages;
-  std::optional<double> dump_solve;
+  std::optional<double> dump_solve, dump_from;
   bool no_report = false, json = false;
 };
 
@@ -176,10 +176,16 @@ Files ParseOptions(int argc, char** argv, Overrides* overrides) {
                  "csv writes log.csv; binary writes log.bin, for long runs")
       ->check(CLI::IsMember({"csv", "binary"}))
       ->capture_default_str();
-  app.add_option("--dump-solve", files.dump_solve,
-                 "write the hierarchy solved at this time, s, so that hqp can "
-                 "solve it again")
-      ->check(CLI::Range(0.0, 1e6));
+  CLI::Option* const dump = app.add_option(
+      "--dump-solve", files.dump_solve,
+      "write the hierarchy solved at this time, s, so that hqp can solve it "
+      "again");
+  dump->check(CLI::Range(0.0, 1e6));
+  app.add_option("--dump-from", files.dump_from,
+                 "with --dump-solve: write those of all ticks from this time "
+                 "on; from 0 on, hqp repeats solves with a budget, too")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(dump);
   app.add_flag("--no-report", files.no_report, "do not write report.html");
   app.add_flag("--json", files.json, "print summary.json on stdout");
   ParseCommandLine(argc, argv, &app);
@@ -192,6 +198,12 @@ Profile ChooseProfile(const Files& files) {
   if (!files.profile.empty()) return LoadProfile(UserPath(files.profile));
   if (files.robot.empty()) return LoadProfile(kProfile);
   return {};
+}
+
+std::optional<DumpedTicks> Dumped(const Files& files) {
+  if (!files.dump_solve) return {};
+  return DumpedTicks{files.dump_from.value_or(*files.dump_solve),
+                     *files.dump_solve};
 }
 
 // Writes the profile that the run uses, with its locked joints and its tasks.
@@ -251,7 +263,7 @@ PushOptions ReadPushOptions(int argc, char** argv) {
           robot_file,
           UserPath(files.out.empty() ? "push-out/" + scenario.name : files.out),
           files.log == "binary" ? LogFormat::kBinary : LogFormat::kCsv,
-          files.dump_solve,
+          Dumped(files),
           !files.no_report,
           files.json,
           std::move(findings)};

@@ -10,6 +10,7 @@
 #include "poise/robot/finding.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/log/log_rows.h"
+#include "poise/tools/commands/push/dump_solve.h"
 
 namespace poise {
 
@@ -19,7 +20,7 @@ struct PushOptions {
   std::filesystem::path robot_file;
   std::filesystem::path out;
   LogFormat log = LogFormat::kCsv;
-  std::optional<double> dump_solve;  ///< Time of the hierarchy to dump, s.
+  std::optional<DumpedTicks> dumped;  ///< Hierarchies to write, if any.
   bool report = true;
   bool json = false;
   std::vector<Finding> findings;  ///< Findings about the robot file.

@@ -100,6 +100,25 @@ for method in svd cod fast; do
   grep -q '"status": *"optimal"' "$TEST_TMPDIR/solved" ||
     fail "hqp --method $method does not solve the dumped solve"
 done
+
+# With the ticks before it, hqp repeats a tick that the budget cut off.
+"$push" --scenario strong_push --at 0.02 --time 0.1 --budget-us 60 --dump-solve 0.09 \
+  --dump-from 0 --no-report --out "$TEST_TMPDIR/ticks" > "$TEST_TMPDIR/said" || [ $? = 1 ]
+grep -qF 'solves_0.000_0.090/solve_*.json' "$TEST_TMPDIR/said" ||
+  fail "the names of the dumped solves are not printed"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "status") at = i }
+  NR > 1 && NR < 93 { print ($at == "truncated" ? "iteration_limit" : "optimal") }' \
+  "$TEST_TMPDIR/ticks/log.csv" > "$TEST_TMPDIR/logged"
+"$hqp" --budget-us 60 --json "$TEST_TMPDIR"/ticks/solves_0.000_0.090/solve_*.json \
+  > "$TEST_TMPDIR/solved" || [ $? = 1 ]
+grep -o '"status":"[a-z_]*"' "$TEST_TMPDIR/solved" | cut -d '"' -f 4 \
+  > "$TEST_TMPDIR/repeated"
+grep -q iteration_limit "$TEST_TMPDIR/logged" || fail "the budget cuts off no tick"
+cmp "$TEST_TMPDIR/logged" "$TEST_TMPDIR/repeated" ||
+  fail "hqp does not repeat the ticks with a budget"
+refuse "--dump-from is 0.200000 s, must not be after --dump-solve, 0.100000 s" \
+  --dump-solve 0.1 --dump-from 0.2 --no-report --out "$TEST_TMPDIR/late"
+
 refuse "the solve at 0.200000 s is outside the scenario, which ends at $(
   )0.100000 s" --time 0.1 --dump-solve 0.2 --no-report \
   --out "$TEST_TMPDIR/late"

@@ -62,4 +62,14 @@ void PrintWarnings(const std::string& file, const Robot& robot,
   }
 }
 
+std::string BudgetWarning(const ControlSettings& control) {
+  constexpr double kShare = 1.0 / 3;  // See docs/failures.md.
+  const double period_us = 1e6 * control.dt;
+  if (control.budget_us <= kShare * period_us) return "";
+  return "the budget is " + PrintNumber(control.budget_us) +
+         " us, more than a third of the control period, " +
+         PrintNumber(period_us) +
+         " us: a tick may end late, see docs/failures.md";
+}
+
 }  // namespace poise

@@ -6,6 +6,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/robot/robot.h"
+#include "poise/sim/scenario.h"
 
 namespace poise {
 
@@ -19,5 +20,9 @@ std::vector<std::string> WarningLines(const std::string& file,
 /// @pre robot.can_stand.
 void PrintWarnings(const std::string& file, const Robot& robot,
                    std::vector<Finding> findings);
+
+/// Returns a warning about a budget that leaves too little of the control period for the rest
+/// of a tick; empty if there is none.
+std::string BudgetWarning(const ControlSettings& control);
 
 }  // namespace poise

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "poise/sim/scenario.h"
+
 namespace poise {
 namespace {
 
@@ -35,6 +37,19 @@ TEST(WarningLines, LimitLinesAndNames) {
   EXPECT_EQ(lines[0], "a.urdf: x: is odd, same; also x, x, x and 6 more");
   EXPECT_EQ(lines[5],
             "a.urdf: 2 more kinds of warnings, see bazel run //tools:doctor");
+}
+
+TEST(BudgetWarning, IsForMoreThanAThirdOfThePeriod) {
+  ControlSettings control;
+  control.dt = 3e-3;
+  for (const double budget_us : {0.0, 300.0, 999.0}) {
+    control.budget_us = budget_us;
+    EXPECT_EQ(BudgetWarning(control), "");
+  }
+  control.budget_us = 1001;
+  EXPECT_EQ(BudgetWarning(control),
+            "the budget is 1001 us, more than a third of the control period, "
+            "3000 us: a tick may end late, see docs/failures.md");
 }
 
 }  // namespace
