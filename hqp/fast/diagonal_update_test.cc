@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "poise/hqp/fast/lexicographic_factorization.h"
 #include "poise/math/rank.h"
 #include "poise/tests/util/count_malloc.h"
+#include "poise/tests/util/decompositions.h"
 #include "poise/tests/util/stacked_rows.h"
 #include "poise/tests/util/tolerance.h"
 
@@ -112,8 +112,8 @@ double Condition(const LexicographicFactorization& leading, int n,
     for (int j = 0; j < n; ++j) {
       if (levels.level(j) < level) columns.col(j).setZero();
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns);
-    for (const double sigma : svd.singularValues()) {
+    const JacobiSvd svd(columns);
+    for (const double sigma : svd.sigma) {
       if (sigma > kRankTolerance) smallest = std::min(smallest, sigma);
     }
   }

@@ -3,13 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "poise/tests/util/decompositions.h"
 #include "poise/tests/util/lexicographic.h"
 #include "poise/tests/util/stacked_rows.h"
 #include "poise/tests/util/tolerance.h"
@@ -256,7 +255,7 @@ class UpdatedLexicographicFactorizationTest
     const Eigen::MatrixXd At = merged_[0].A.transpose();
     double part = 1;
     if (At.cols() > 0) {
-      part = (row - At * At.colPivHouseholderQr().solve(row)).norm();
+      part = (row - At * LeastSquaresSolution(At, row).x).norm();
     }
     stack_.AddRow(target, 1);
     const bool is_fixed = stack_.AppendFixedVariable(variable, entry);
@@ -414,8 +413,7 @@ TEST_P(UpdatedLexicographicFactorizationTest, FactorsFixedVariablesAtOnce) {
     poise::AppendRow(merged_[0].A.row(i), merged_[0].b[i], &all);
   }
   if (all.A.rows() == 0) return;
-  const Eigen::VectorXd sigma =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(all.A).singularValues();
+  const Eigen::VectorXd sigma = JacobiSvd(all.A).sigma;
   if (!stack_.FactorMerged(met_)) {
     // The least singular value is at most the independent part of any row.
     EXPECT_TRUE(all.A.rows() > n_ || sigma.minCoeff() < kIndependentPart);

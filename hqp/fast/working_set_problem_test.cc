@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include "poise/hqp/fast/tolerances.h"
+#include "poise/tests/util/decompositions.h"
 #include "poise/tests/util/lexicographic.h"
 #include "poise/tests/util/random_hierarchy.h"
 #include "poise/tests/util/stacked_rows.h"
@@ -517,11 +518,13 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
       Rounding(drawn.norm() + factor.norm(), kMaxRows, condition);
   EXPECT_LE((unit * factor - row).norm(), rounding);
 
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(unit, Eigen::ComputeFullU);
-  if (svd.rank() == n_) return;
+  const JacobiSvd svd(unit);
+  const double rank_tolerance =
+      n_ * std::numeric_limits<double>::epsilon() * svd.sigma[0];
+  if ((svd.sigma.array() > rank_tolerance).count() == n_) return;
   // The last left singular vector is orthogonal to all rows. A part of 1e-3 of the row is
   // allowed to be so.
-  const Eigen::VectorXd outside = svd.matrixU().col(n_ - 1);
+  const Eigen::VectorXd outside = svd.U.col(n_ - 1);
   for (const double part : {0.5, 2.0, 1000.0}) {
     const Eigen::VectorXd other =
         row + part * tolerances::kIndependentPart * row.norm() * outside;

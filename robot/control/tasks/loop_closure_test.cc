@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "poise/robot/control/task.h"
 #include "poise/robot/control/tasks/contact.h"
 #include "poise/robot/control/tasks/task_fixture.h"
+#include "poise/tests/util/decompositions.h"
 
 namespace poise {
 namespace {
@@ -58,8 +58,7 @@ TEST_F(LoopClosureTest, FindsTheRankOfBothContacts) {
   for (const char* joint : {"ankle_roll", "hip_yaw", "knee"}) {
     const std::vector<ContactTick> contacts = Weakened(joint, 0);
     const Eigen::MatrixXd J = Stacked(contacts);
-    const Eigen::VectorXd sigma =
-        Eigen::JacobiSVD<Eigen::MatrixXd>(J).singularValues();
+    const Eigen::VectorXd sigma = JacobiSvd(J).sigma;
     const int dependent = static_cast<int>((sigma.array() < 1e-9).count());
     const LockedMotions locked = Locked(contacts);
     EXPECT_EQ(locked.count, dependent) << joint;
