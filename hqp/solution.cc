@@ -121,6 +121,7 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
       zero += square(hierarchy.C(level).row(i)) * 0;
     }
     if (zero != 0) return Status::kNotFinite;
+    bool in_order = true;
     for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
       const double lower = hierarchy.lower(level)[i];
       const double upper = hierarchy.upper(level)[i];
@@ -128,8 +129,9 @@ Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept {
           upper == -kInfinity) {
         return Status::kNotFinite;
       }
-      if (lower > upper) return Status::kBadInput;
+      in_order &= lower <= upper;
     }
+    if (!in_order) return Status::kBadInput;
     for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
       if (hierarchy.weight(level)[i] < 0) return Status::kBadInput;
     }

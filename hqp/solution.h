@@ -13,10 +13,11 @@ enum class Status {
   kOptimal,
   /// No certified optimum: the levels above failed_level are optimal.
   kIterationLimit,
-  kNotFinite,  ///< NaN or infinity in the rows, or too large numbers; y is
-               ///< zero. See CheckInput().
-  kBadInput,   ///< lower > upper, a negative weight, or too many rows; y is
-               ///< zero.
+  /// NaN or infinity in the rows, see CheckInput(), or numbers with which the answer
+  /// overflows; y is zero.
+  kNotFinite,
+  /// lower > upper, a negative weight, or too many rows; y is zero.
+  kBadInput,
 };
 
 /// The active bound of a row lower <= C y <= upper at y.

@@ -46,6 +46,8 @@ class Solver::Impl {
   Work work() const { return problem_.work(); }
 
  private:
+  void Refuse(const Hierarchy& hierarchy, Status status, int failed_level,
+              Solution* solution);
   void StartOver(const Hierarchy& hierarchy);
   void RememberSearch();
   void RecallSearch();
@@ -64,8 +66,8 @@ class Solver::Impl {
   ActiveSetSearch search_;
   MultiplierWriter writer_;
   Certifier certifier_;
-  std::vector<std::vector<Side>> side_, best_side_, solved_side_;
-  std::vector<double> value_, best_y_;
+  std::vector<std::vector<Side>> side_, first_side_, best_side_, solved_side_;
+  std::vector<double> value_, first_y_, best_y_;
 };
 
 Solver::Impl::Impl(int num_variables,
@@ -81,8 +83,9 @@ Solver::Impl::Impl(int num_variables,
     side_.emplace_back(level.inequalities, Side::kNone);
     most = std::max(most, level.inequalities);
   }
-  best_side_ = solved_side_ = side_;
+  first_side_ = best_side_ = solved_side_ = side_;
   value_.resize(most);
+  first_y_.resize(n_);
   best_y_.resize(n_);
 }
 
@@ -101,13 +104,9 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   int failed_level;
   const Status status = problem_.Read(hierarchy, &failed_level);
   if (status != Status::kOptimal) {
-    solution->Reset();
-    solution->status = status;
-    solution->failed_level = failed_level;
-    // The gaps of an invalid hierarchy stay infinite.
-    solution->certificate = certifier_.Certify(hierarchy, *solution);
+    Refuse(hierarchy, status, failed_level, solution);
     num_cut_off_ = 0;
-    return solution->status;
+    return status;
   }
   solution->Reset(hierarchy);
   search_.Resume(&side_);
@@ -138,16 +137,30 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
       problem_.Plan(hierarchy, hierarchy.num_levels());
       problem_.SolveLeading(hierarchy, side_);
       KeepSearch(hierarchy, solution);
-    } else if (!WriteSolution(hierarchy, solution) ||
-               solution->failed_level >= 0) {
-      certifier_.Truncate(hierarchy, solution);
+    } else {
+      if (!WriteSolution(hierarchy, solution) || solution->failed_level >= 0) {
+        certifier_.Truncate(hierarchy, solution);
+      }
+      if (budget->is_spent()) search_.Stop(hierarchy, problem_, &side_);
     }
   }
   solution->iterations = budget->iterations();
   num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off + 1 : 0;
-  // The next search must not go on from numbers that have overflowed.
-  if (!solution->y.allFinite()) Forget();
+  if (!solution->y.allFinite()) {
+    // The next search must not go on from numbers that have overflowed.
+    Forget();
+    Refuse(hierarchy, Status::kNotFinite, 0, solution);
+  }
   return solution->status;
+}
+
+// Writes y = 0. The gaps of an invalid hierarchy are infinite.
+void Solver::Impl::Refuse(const Hierarchy& hierarchy, Status status,
+                          int failed_level, Solution* solution) {
+  solution->Reset();
+  solution->status = status;
+  solution->failed_level = failed_level;
+  solution->certificate = certifier_.Certify(hierarchy, *solution);
 }
 
 // Remembers the last search and forgets it. The rows have changed since, so that
@@ -176,11 +189,18 @@ void Solver::Impl::RecallSearch() {
 // false if the budget, or `limit` iterations of it, did not suffice.
 bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget) {
+  first_side_ = side_;
+  first_y_ = search_.y();
   for (int pass = 0;; ++pass) {
-    // Refinement has found rows violated in their last digits. A path from the last
-    // optimum would follow this rounding.
+    // Refinement has found violated rows, mostly in their last digits. A path from the
+    // last optimum would follow this rounding.
     if (pass > 0) search_.ForgetPath();
     if (!search_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
+      // The point that pass 0 took for the optimum may be worse than the first one.
+      if (pass > 0 && IsBetter(hierarchy, first_y_, search_.y())) {
+        side_ = first_side_;
+        search_.set_y(first_y_);
+      }
       return false;
     }
     problem_.Refine(hierarchy);

@@ -240,6 +240,25 @@ TEST(Solver, RefusesRowsWhoseSquaresOverflow) {
             Status::kOptimal);
 }
 
+// The status does not depend on the order of the rows, and is that of CheckInput().
+TEST(Solver, ReportsNanBeforeCrossedBounds) {
+  const std::vector<LevelCapacity> capacity = {{0, 2}};
+  for (const int crossed : {0, 1}) {
+    Hierarchy hierarchy(1, capacity);
+    InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+    bounds.C << 1, 1;
+    bounds.lower << 0, 0;
+    bounds.upper << 1, 1;
+    bounds.upper[crossed] = -1;
+    bounds.upper[1 - crossed] = std::numeric_limits<double>::quiet_NaN();
+    Solution solution(1, capacity);
+    int failed_level;
+    EXPECT_EQ(Solver(1, capacity).Solve(hierarchy, &solution),
+              Status::kNotFinite);
+    EXPECT_EQ(CheckInput(hierarchy, &failed_level), Status::kNotFinite);
+  }
+}
+
 // A target can overflow as well. The next solve is then that of a new solver.
 TEST(Solver, ForgetsASearchThatOverflows) {
   const std::vector<LevelCapacity> capacity = {{1, 2}, {2, 0}};
@@ -260,11 +279,27 @@ TEST(Solver, ForgetsASearchThatOverflows) {
   ASSERT_EQ(Solver(2, capacity).Solve(usual, &expected), Status::kOptimal);
   Solver solver(2, capacity);
   ASSERT_EQ(solver.Solve(usual, &solution), Status::kOptimal);
-  EXPECT_NE(solver.Solve(too_large, &solution), Status::kOptimal);
-  ASSERT_FALSE(solution.y.allFinite());
+  EXPECT_EQ(solver.Solve(too_large, &solution), Status::kNotFinite);
+  EXPECT_TRUE(solution.y.isZero(0));
+  EXPECT_EQ(solution.failed_level, 0);
   EXPECT_EQ(solver.Solve(usual, &solution), Status::kOptimal);
   EXPECT_EQ(solution.y, expected.y);
   EXPECT_EQ(solution.iterations, expected.iterations);
+}
+
+// 1e-17 y_1 is 1 at y_1 = 1e17, though 1 + 1e-17 is 1: the second level has two variables.
+TEST(Solver, ATinyEntryBesideALargeOneCounts) {
+  const std::vector<LevelCapacity> capacity = {{1, 0}, {1, 0}};
+  Hierarchy hierarchy(2, capacity);
+  EqualityBlock first = hierarchy.AddEqualities(0, 1);
+  first.B << 0, 1;
+  first.b << -1e17;
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << 1, 1e-17;
+  second.b << -3;
+  Solution solution(2, capacity);
+  EXPECT_EQ(Solver(2, capacity).Solve(hierarchy, &solution), Status::kOptimal);
+  EXPECT_NEAR(solution.y[0], 2, 1e-14);  // A few roundings of numbers near 1.
 }
 
 // A row that is too small to count leaves its level diagonal. So it takes no memory of the

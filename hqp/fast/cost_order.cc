@@ -11,7 +11,8 @@ namespace poise {
 namespace {
 
 struct Cost {
-  double cost, size;  // Twice the cost of a level; squares of its terms.
+  double cost;  // Twice the cost of a level.
+  double size;  // What rounding of 1 in each term of each row can change of it.
 };
 
 // Calls use(i, r_i y) for `count` rows, n entries apart.
@@ -37,39 +38,54 @@ Cost FindCost(const Hierarchy& hierarchy, int level,
                  hierarchy.num_equalities(level), y, [&](int i, double value) {
                    const double residual = value + b[i];
                    sum.cost += weight[i] * residual * residual;
-                   sum.size += weight[i] * (value * value + b[i] * b[i]);
+                   sum.size += weight[i] * std::abs(residual) *
+                               (std::abs(value) + std::abs(b[i]));
                  });
   const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
-  ForEachProduct(hierarchy.C(level).data(), n, hierarchy.C_span(level),
-                 hierarchy.num_inequalities(level), y,
-                 [&](int i, double value) {
-                   const double slack =
-                       std::max({value - upper[i], lower[i] - value, 0.0});
-                   sum.cost += slack * slack;
-                   if (slack > 0) sum.size += value * value;
-                 });
+  ForEachProduct(
+      hierarchy.C(level).data(), n, hierarchy.C_span(level),
+      hierarchy.num_inequalities(level), y, [&](int i, double value) {
+        const double above = value - upper[i];
+        const double slack = std::max({above, lower[i] - value, 0.0});
+        if (slack == 0) return;
+        const double bound = slack == above ? upper[i] : lower[i];
+        sum.cost += slack * slack;
+        sum.size += slack * (std::abs(value) + std::abs(bound));
+      });
   return sum;
 }
 
-// Returns twice the cost of a level that rounding of a point can cause, whose largest entry
-// is `largest`. Where the terms of all rows cancel, this is more than rounding of the cost.
-double CostOfRounding(const Hierarchy& hierarchy, int level, double largest) {
+// Returns by how much rounding of y, whose largest entry is `largest`, can change twice the
+// cost of a level. Where the terms of rows cancel, this is more than rounding of the cost.
+double CostOfRounding(const Hierarchy& hierarchy, int level,
+                      const std::vector<double>& y, double largest) {
   const double rounding = tolerances::kSolutionRounding * largest;
-  const auto square = [&](const auto& rows, const Span* spans, int i) {
+  const int n = hierarchy.num_variables();
+  const auto change = [&](const auto& rows, const Span* spans, int i,
+                          double residual) {
     const Span span = spans[i];
-    const double residual =
+    const double of_row =
         rounding *
         kernels::AbsoluteSum(rows.row(i).data() + span.first, span.size);
-    return residual * residual;
+    return (2 * residual + of_row) * of_row;
   };
   const auto B = hierarchy.B(level), C = hierarchy.C(level);
+  const Span *B_spans = hierarchy.B_span(level),
+             *C_spans = hierarchy.C_span(level);
   double sum = 0;
-  for (int i = 0; i < hierarchy.num_equalities(level); ++i) {
-    sum += hierarchy.weight(level)[i] * square(B, hierarchy.B_span(level), i);
-  }
-  for (int i = 0; i < hierarchy.num_inequalities(level); ++i) {
-    sum += square(C, hierarchy.C_span(level), i);
-  }
+  const auto b = hierarchy.b(level), weight = hierarchy.weight(level);
+  ForEachProduct(B.data(), n, B_spans, hierarchy.num_equalities(level), y,
+                 [&](int i, double value) {
+                   sum += weight[i] *
+                          change(B, B_spans, i, std::abs(value + b[i]));
+                 });
+  const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
+  ForEachProduct(C.data(), n, C_spans, hierarchy.num_inequalities(level), y,
+                 [&](int i, double value) {
+                   sum += change(
+                       C, C_spans, i,
+                       std::max({value - upper[i], lower[i] - value, 0.0}));
+                 });
   return sum;
 }
 
@@ -85,7 +101,9 @@ bool IsBetter(const Hierarchy& hierarchy, const std::vector<double>& y,
     const Cost than = FindCost(hierarchy, level, other);
     const double difference = std::abs(cost.cost - than.cost);
     if (difference > tolerances::kZeroSlope * std::max(cost.size, than.size) &&
-        difference > CostOfRounding(hierarchy, level, largest)) {
+        difference > CostOfRounding(hierarchy, level,
+                                    cost.cost > than.cost ? y : other,
+                                    largest)) {
       return cost.cost < than.cost;
     }
   }

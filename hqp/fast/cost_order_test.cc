@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -107,6 +108,40 @@ TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothing) {
   const double large = 1e8;
   EXPECT_TRUE(IsBetter({-large, -large + 4e-7}, {-2 * large, -2 * large}));
   EXPECT_FALSE(IsBetter({-large, -large + 4e-4}, {-2 * large, -2 * large}));
+}
+
+// A row of weight 1e6 that is met does not hide that another level misses more: there, the
+// rows b = 1 and b = -1 contradict each other.
+TEST(CostOrder, ARowOfLargeWeightThatIsMetHidesNothing) {
+  Hierarchy hierarchy(2, {{3, 0}, {1, 0}});
+  EqualityBlock first = hierarchy.AddEqualities(0, 3);
+  first.B << 1, 0, 0, 1, 0, 1;
+  first.b << -3, -1, 1;
+  first.weight[0] = 1e6;
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << 0, 1;
+  second.b << -1;
+  EXPECT_TRUE(IsBetter(hierarchy, {3, 0}, {3, 9e-3}));
+  EXPECT_FALSE(IsBetter(hierarchy, {3, 9e-3}, {3, 0}));
+}
+
+// The bounds y_0 >= 1 and y_0 <= -1 are best at y_0 = 0. There, y_0 is rounding, and the cost
+// 1 + y_0^2 is the same in double precision but for its last digit.
+TEST(CostOrder, RoundingAtACompromiseOfBoundsDecidesNothing) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Hierarchy hierarchy(2, {{0, 2}, {1, 0}});
+  InequalityBlock bounds = hierarchy.AddInequalities(0, 2);
+  bounds.C << 1, 0, 1, 0;
+  bounds.lower << 1, -kInfinity;
+  bounds.upper << kInfinity, -1;
+  EqualityBlock second = hierarchy.AddEqualities(1, 1);
+  second.B << 0, 1;
+  for (int i = 1; i < 2000; ++i) {
+    const std::vector<double> better = {i * 3.7e-12, 0};
+    const std::vector<double> worse = {i * -2.3e-12, 1e-3};
+    EXPECT_TRUE(IsBetter(hierarchy, better, worse)) << i;
+    EXPECT_FALSE(IsBetter(hierarchy, worse, better)) << i;
+  }
 }
 
 // The points differ in the nullspace of the levels above one that is drawn, so that these

@@ -90,7 +90,8 @@ class LexicographicFactorization {
 
   /// Factors all rows, those of AddFixedVariable() and of AddRow(), as the levels
   /// before `level`, merged. Returns false and removes all rows if the independent
-  /// part of one is below kIndependentPart, or if multiply_adds() exceeds its limit.
+  /// part of one is below kIndependentPart, or if multiply_adds() exceeds its limit before
+  /// the last row.
   /// pre: no level has been factored.
   [[nodiscard]] bool FactorMerged(int level);
 

@@ -43,8 +43,9 @@ constexpr double kZeroFactor = 1e-4;
 /// factors.
 constexpr double kZeroRow = 1e-300;
 
-/// Input: a bound beyond this is infinite. At such a large y, the other rows,
-/// with terms near 1, would lose all 15 digits to rounding. Ten times larger or
+/// Working set: a row whose bound is beyond this is not kept from the last solve, and is not
+/// flipped. At such a large y, the other rows, with terms near 1, lose all 15 digits to
+/// rounding. Ten times larger or
 /// smaller, no count changes.
 constexpr double kInfiniteBound = 1e15;
 

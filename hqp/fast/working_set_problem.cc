@@ -79,9 +79,17 @@ bool WorkingSetProblem::IsDiagonal(const Hierarchy& hierarchy, int level) {
   const auto B = hierarchy.B(level);
   for (int i = 0; i < B.rows(); ++i) {
     if (IsLeftOut(level, i)) continue;
-    // The variable is usually the same as in the last tick.
     const double* row = B.data() + i * n_;
     int& variable = selected_[level][i];
+    // In a longer span, an entry may be too small to change the norm.
+    const Span span = hierarchy.B_span(level)[i];
+    const auto is_zero = [](double entry) { return entry == 0; };
+    if (span.size > 1 &&
+        std::count_if(row + span.first, row + span.first + span.size, is_zero) <
+            span.size - 1) {
+      return false;
+    }
+    // The variable is usually the same as in the last tick.
     if (std::abs(row[variable]) == B_norm_[level][i]) continue;
     variable =
         static_cast<int>(std::max_element(row, row + n_,

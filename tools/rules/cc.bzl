@@ -11,8 +11,9 @@ _COPTS = [
     # A false warning of GCC inside Eigen; clang does not have this warning.
     "-Wno-unknown-warning-option",
     "-Wno-maybe-uninitialized",
-    # Clang does not have GCC's --param of .bazelrc.
+    # Clang does not have GCC's --param and -fexpensive-optimizations of .bazelrc.
     "-Wno-unused-command-line-argument",
+    "-Wno-ignored-optimization-argument",
     "-Werror",
 ]
 
