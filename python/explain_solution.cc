@@ -100,7 +100,8 @@ std::string ExplainSolution(const PythonSolution& solved) {
   std::ostringstream text;
   const Hierarchy hierarchy = MakeHierarchy(solved.source);
   text << DescribeHqpSolution(hierarchy, solved.solution,
-                              solved.solution.certificate, solved.microseconds);
+                              solved.solution.certificate,
+                              {solved.microseconds, {}});
   const int certified = CertifiedLevels(hierarchy, solved.solution);
   for (int level = 0; level < certified; ++level) {
     std::ostringstream rows;

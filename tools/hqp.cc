@@ -6,17 +6,37 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "poise/hqp/certificate.h"
 #include "poise/hqp/solution.h"
+#include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
 #include "poise/tools/commands/hqp/solve_files.h"
 
 namespace poise {
 namespace {
+
+// Refuses values that CLI11 accepts, such as NaN, and options without an effect.
+void CheckMethod(const CLI::App& app, const HqpMethod& method) {
+  constexpr double kMostUs = 1e6;
+  if (!(method.budget_us >= 0 && method.budget_us <= kMostUs)) {
+    throw std::invalid_argument("--budget-us is " +
+                                PrintNumber(method.budget_us) +
+                                ", must be 0 to 1e+06 us");
+  }
+  if (method.name == "fast") return;
+  for (const char* option : {"--budget-us", "--max-iterations", "--cold"}) {
+    if (app.count(option) == 0) continue;
+    throw std::invalid_argument(std::string(option) +
+                                " has an effect with --method fast only, but "
+                                "--method is " +
+                                method.name);
+  }
+}
 
 int Main(int argc, char** argv) {
   CLI::App app("Solves hierarchical quadratic programs (format hqp-1).", "hqp");
@@ -41,13 +61,13 @@ int Main(int argc, char** argv) {
   app.add_option("--budget-us", method.budget_us,
                  "Limit of the predicted time of each solve by fast, us, as of "
                  "push --budget-us; 0: no limit")
-      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   app.add_flag("--cold", method.cold,
                "Solve each file with a new solver, from an empty working set");
   app.add_flag("--json", json,
                "Print one JSON document, an array if there are several files");
   ParseCommandLine(argc, argv, &app);
+  CheckMethod(app, method);
   bool all_optimal = true;
   std::string document;
   std::vector<HqpProblem> problems;
@@ -62,18 +82,18 @@ int Main(int argc, char** argv) {
   for (size_t i = 0; i < files.size(); ++i) {
     const HqpProblem& problem = problems[i];
     Solution solution(problem.hierarchy.num_variables(), problem.capacity);
-    double microseconds = 0;
+    SolveTimes times = {0, {}};
     all_optimal &=
-        sequence.Solve(problem, &solution, &microseconds) == Status::kOptimal;
+        sequence.Solve(problem, &solution, &times) == Status::kOptimal;
     const Certificate& certificate = solution.certificate;
     if (!json) {
       std::cout << files[i] << ": "
                 << DescribeHqpSolution(problem.hierarchy, solution, certificate,
-                                       microseconds);
+                                       times);
     }
-    document += (document.empty() ? "" : ",") +
-                WriteHqpSolution(problem.hierarchy, solution, certificate,
-                                 microseconds);
+    document +=
+        (document.empty() ? "" : ",") +
+        WriteHqpSolution(problem.hierarchy, solution, certificate, times);
   }
   if (json) {
     std::cout << (files.size() == 1 ? document : "[" + document + "]") << "\n";

@@ -6,8 +6,11 @@
 #include <iostream>
 #include <string>
 
+#include "poise/robot/control/controller.h"
+#include "poise/robot/finding.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/log/summary.h"
+#include "poise/sim/scenario.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/push/dump_solve.h"
 #include "poise/tools/commands/push/push_options.h"
@@ -30,12 +33,24 @@ bool ShowProgress(double fraction) {
   return g_interrupted == 0;
 }
 
+// Returns the options with which hqp solves ticks as this controller does.
+std::string LimitsOf(const poise::ControlSettings& control) {
+  std::string limits =
+      "--max-iterations " +
+      std::to_string(poise::ControllerOptions().max_iterations) + " ";
+  if (control.budget_us > 0 && !control.budget_clock) {
+    limits += "--budget-us " + poise::PrintNumber(control.budget_us) + " ";
+  }
+  return limits;
+}
+
 int Push(const poise::PushOptions& options) {
   const poise::Robot& robot = options.loop->robot();
   const poise::Scenario& scenario = options.loop->scenario();
   std::string dumped;
   if (options.dumped) {
     dumped = "\nTo solve again: bazel run //tools:hqp -- " +
+             LimitsOf(scenario.control) +
              poise::DumpSolve({robot, scenario}, *options.dumped, options.out)
                  .string();
   }

@@ -189,11 +189,18 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
 
 std::string WhyEstimated(const Outline& outline) {
   if (!outline.mesh_refusal.empty()) {
+    const std::string sole = "the sole in a profile";
+    if (!outline.mesh_is_missing) {
+      return "because " + outline.mesh_refusal +
+             "; correct the mesh, or give " + sole;
+    }
+    const bool is_of_package =
+        outline.mesh_refusal.find("package://") != std::string::npos;
     return "because " + outline.mesh_refusal +
-           (outline.mesh_is_missing
-                ? ": give --package-path DIR, in Python packages=[DIR], or "
-                  "the sole in a profile"
-                : "; correct the mesh, or give the sole in a profile");
+           (is_of_package ? ": give --package-path DIR, in Python "
+                            "packages=[DIR], or " +
+                                sole
+                          : ": put the file there, or give " + sole);
   }
   const std::string remedy = ": give the sole in a profile";
   if (outline.corners.empty()) {

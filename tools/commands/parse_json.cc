@@ -23,6 +23,10 @@ nlohmann::json ParseJson(std::string_view text) {
     }
     return true;
   };
+  // The parser would take it for the end.
+  if (text.find('\0') != std::string_view::npos) {
+    throw std::invalid_argument("not JSON: has a NUL character");
+  }
   try {
     return nlohmann::json::parse(text.begin(), text.end(), keep);
   } catch (const nlohmann::json::exception& error) {

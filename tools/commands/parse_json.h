@@ -8,7 +8,7 @@ namespace poise {
 
 /// Parses a JSON document from outside. Throws std::invalid_argument with one
 /// line if:
-/// - the text is not JSON;
+/// - the text is not JSON, or has a NUL character;
 /// - an object has a key twice, because one of the values would be lost;
 /// - the nesting is deeper than 100 levels, because to copy or to write such a
 ///   document would exhaust the stack.

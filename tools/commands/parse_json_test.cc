@@ -43,6 +43,8 @@ TEST(ParseJson, AcceptsOnlyJson) {
   EXPECT_EQ(ParseJson("{\"a\": [1, {\"b\": 2.5}]}")["a"][1]["b"], 2.5);
   EXPECT_EQ(Refusal("{\"a\": [1,}").find("not JSON: "), 0u);
   EXPECT_EQ(Refusal("").find("not JSON: "), 0u);
+  EXPECT_EQ(Refusal(std::string("{}\0 and more", 12)),
+            "not JSON: has a NUL character");
 }
 
 }  // namespace

@@ -72,7 +72,10 @@ void MomentumCost::Look(double time, double dt, const RowPhrases& phrases,
   }
   const double force = LostForce(phrases, lost);
   if (!(force >= kSmallLoss)) return;
-  if (peak_ == 0 || time - last_ > kEpisodeGap) Begin(time);
+  if (peak_ == 0 || time - last_ > kEpisodeGap) {
+    if (active.empty() && conflict.empty()) return;
+    Begin(time);
+  }
   last_ = time;
   for (const auto& [name, level] : conflict) {
     const auto is_same = [&](const auto& row) { return row.first == name; };

@@ -101,6 +101,22 @@ TEST(MomentumCost, CountsOnlyTheLastEpisode) {
   EXPECT_EQ(cost.Causes()[0].task, "torque_limits");
 }
 
+// A tick that was cut off long after a push has no active row. It does not hide the push.
+TEST(MomentumCost, ATickThatWasCutOffBeginsNoEpisode) {
+  MomentumCost cost;
+  cost.Look(1, 0.01, Phrases(), {{"left.cop", 1}}, {{"momentum.lx", 100}}, {},
+            kUnknown);
+  cost.Look(5, 0.01, Phrases(), {}, {{"momentum.lx", 1}}, {}, kUnknown);
+  EXPECT_EQ(cost.from(), 1);
+  EXPECT_EQ(cost.peak(), 100);
+  ASSERT_EQ(cost.Causes().size(), 1u);
+  // With a conflict, as between two targets, it is an episode.
+  cost.Look(6, 0.01, Phrases(), {}, {{"momentum.lx", 2}}, {{"momentum.lx", 4}},
+            kUnknown);
+  EXPECT_EQ(cost.from(), 6);
+  EXPECT_EQ(cost.peak(), 2);
+}
+
 // A loss below 0.5 N is rounding; angular momentum has another unit.
 TEST(MomentumCost, IgnoresRoundingAndAngularMomentum) {
   MomentumCost cost;

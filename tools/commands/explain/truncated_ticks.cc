@@ -31,12 +31,19 @@ bool IsTruncatedBefore(double time, const RunStory& story) {
   });
 }
 
-// Returns the budget, us, or 0 if there was none.
+// Returns the budget, us, or 0 if no solve spent it: 500 iterations may end a solve, too.
 double FindBudget(const json& summary) {
   const json hqp = summary.value("hqp", json::object());
   if (!hqp.is_object()) return 0;
-  const json budget = hqp.value("budget_us", json());
-  return budget.is_number() ? budget.get<double>() : 0;
+  const auto number = [](const json& object, const char* key, double absent) {
+    const json value = object.is_object() ? object.value(key, json()) : json();
+    return value.is_number() ? value.get<double>() : absent;
+  };
+  const double budget = number(hqp, "budget_us", 0);
+  if (hqp.value("budget_clock", json()) == json(true)) return budget;
+  return number(hqp.value("modelled_us", json()), "max", budget) >= budget
+             ? budget
+             : 0;
 }
 
 }  // namespace

@@ -52,6 +52,21 @@ TEST(TruncatedTicks, AdviseALargerBudgetIfTheRobotFell) {
   EXPECT_EQ(say(0), fact);  // The robot fell before.
 }
 
+// A limit of iterations ended these solves, because none took as long as the budget allows.
+TEST(TruncatedTicks, DoNotBlameABudgetThatNoSolveSpent) {
+  const RunStory story = StoryWith({{"truncated rank_3", 2}});
+  json summary = {{"fell_at", 9.0}};
+  summary["hqp"] = {{"budget_us", 300}, {"modelled_us", {{"max", 299}}}};
+  EXPECT_EQ(SayTruncated(story, summary).find("budget"), std::string::npos);
+  summary["hqp"]["modelled_us"]["max"] = 301;
+  EXPECT_NE(SayTruncated(story, summary).find("with a budget of 300 us"),
+            std::string::npos);
+  summary["hqp"]["modelled_us"]["max"] = 299;
+  summary["hqp"]["budget_clock"] = true;
+  EXPECT_NE(SayTruncated(story, summary).find("with a budget of 300 us"),
+            std::string::npos);
+}
+
 TEST(TruncatedTicks, NeedNoBudgetAndNoSummary) {
   const RunStory story = StoryWith({{"truncated rank_5", 7}});
   const std::string expected =

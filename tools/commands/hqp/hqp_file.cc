@@ -21,6 +21,8 @@ using nlohmann::ordered_json;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The solver's memory grows with the square of their number, 0.3 GB for this one.
 constexpr int kMostVariables = 2000;
+// The output grows with the square of their number.
+constexpr size_t kMostLevels = 1000;
 
 [[noreturn]] void Refuse(const std::string& where, const std::string& what) {
   throw std::invalid_argument(where + ": " + what);
@@ -217,7 +219,11 @@ HqpProblem ReadHqp(const std::string& text) {
   }
   const int n = Integer(file, "variables", 1, kMostVariables);
   const json& levels = Array(file, "levels", "file");
-  if (levels.empty()) Refuse("levels", "must have at least one level");
+  if (levels.empty() || levels.size() > kMostLevels) {
+    Refuse("levels", "has " + std::to_string(levels.size()) +
+                         " entries, must have 1 to " +
+                         std::to_string(kMostLevels));
+  }
   const bool has_bounds = file.contains("y_lower") || file.contains("y_upper");
   const int bounds_level = file.contains("y_bounds_level")
                                ? Integer(file, "y_bounds_level", 0,
@@ -305,12 +311,13 @@ int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution) {
 std::string DescribeHqpSolution(const Hierarchy& hierarchy,
                                 const Solution& solution,
                                 const Certificate& certificate,
-                                double microseconds) {
+                                const SolveTimes& times) {
   const int levels = hierarchy.num_levels();
   const int certified = CertifiedLevels(hierarchy, solution);
   std::ostringstream text;
   text << Name(solution.status) << ", " << solution.iterations
-       << " iterations, " << microseconds << " us, ";
+       << " iterations, " << times.measured << " us, ";
+  if (times.modelled) text << *times.modelled << " us predicted, ";
   if (certified == 0) {
     text << "no certificate";
   } else {
@@ -332,7 +339,7 @@ std::string DescribeHqpSolution(const Hierarchy& hierarchy,
 std::string WriteHqpSolution(const Hierarchy& hierarchy,
                              const Solution& solution,
                              const Certificate& certificate,
-                             double microseconds) {
+                             const SolveTimes& times) {
   ordered_json out;
   out["status"] = Name(solution.status);
   out["y"] = Head(solution.y, hierarchy.num_variables());
@@ -380,7 +387,9 @@ std::string WriteHqpSolution(const Hierarchy& hierarchy,
       {"complementarity", number(certificate.complementarity)},
       {"priority", number(certificate.priority)}};
   out["iterations"] = solution.iterations;
-  out["microseconds"] = microseconds;
+  out["microseconds"] = times.measured;
+  out["modelled_us"] =
+      times.modelled ? ordered_json(*times.modelled) : ordered_json();
   return out.dump();
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,20 @@ std::string WriteHqp(const Hierarchy& hierarchy);
 /// failed one.
 int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution);
 
+/// Times of a solve, us.
+struct SolveTimes {
+  double measured;
+  /// Solver::modelled_seconds(), if known. It includes the search for the nullity, which a
+  /// controller leaves out.
+  std::optional<double> modelled;
+};
+
 /// Returns a description for people: one line, and one line for each level. It
 /// says which levels the certificate covers.
 std::string DescribeHqpSolution(const Hierarchy& hierarchy,
                                 const Solution& solution,
                                 const Certificate& certificate,
-                                double microseconds);
+                                const SolveTimes& times);
 
 /// Returns a solution as JSON, as `//tools:hqp -- --json` prints it.
 /// `failed_level` is null if the solution is optimal. `certified_levels` is
@@ -50,7 +59,7 @@ std::string DescribeHqpSolution(const Hierarchy& hierarchy,
 std::string WriteHqpSolution(const Hierarchy& hierarchy,
                              const Solution& solution,
                              const Certificate& certificate,
-                             double microseconds);
+                             const SolveTimes& times);
 
 /// Returns "optimal", "iteration_limit", "not_finite" or "bad_input".
 std::string Name(Status status);

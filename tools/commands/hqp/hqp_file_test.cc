@@ -83,7 +83,7 @@ TEST(WriteHqpSolution, HasAllKeysOfTheFormat) {
   certificate.complementarity = 3;
   certificate.priority = 4;
   const json out = json::parse(
-      WriteHqpSolution(problem.hierarchy, solution, certificate, 5));
+      WriteHqpSolution(problem.hierarchy, solution, certificate, {5, 4}));
   EXPECT_EQ(out["status"], "optimal");
   EXPECT_NEAR(out["y"][0], 1, 1e-14);  // Rounding of a few operations.
   EXPECT_NEAR(out["y"][1], 3, 1e-14);
@@ -119,10 +119,11 @@ class UnfinishedTest : public testing::Test {
     solution_.status = status;
     solution_.failed_level = failed_level;
     return json::parse(
-        WriteHqpSolution(problem_.hierarchy, solution_, certificate_, 5));
+        WriteHqpSolution(problem_.hierarchy, solution_, certificate_, {5, 4}));
   }
   std::string Said() const {
-    return DescribeHqpSolution(problem_.hierarchy, solution_, certificate_, 5);
+    return DescribeHqpSolution(problem_.hierarchy, solution_, certificate_,
+                               {5, 4});
   }
 
   HqpProblem problem_;
@@ -189,7 +190,8 @@ TEST(ReadHqp, RejectsInOneLine) {
   EXPECT_EQ(Refusal(R"({"format": "hqp-1"})"), "variables: is missing");
   EXPECT_EQ(Refusal(R"({"format": "hqp-1", "variables": 0})"),
             "variables: is 0, must be a whole number from 1 to 2000");
-  EXPECT_EQ(Refusal(head + "[]}"), "levels: must have at least one level");
+  EXPECT_EQ(Refusal(head + "[]}"),
+            "levels: has 0 entries, must have 1 to 1000");
   EXPECT_EQ(Refusal(head + "3}"), "file.levels: is 3, must be an array");
   EXPECT_EQ(Refusal(head + "[3]}"), "levels[0]: is 3, must be an object");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2]]}]})"),

@@ -47,6 +47,12 @@ code=0
 [ "$code" = 1 ] || fail "one iteration: exit code is $code, must be 1"
 grep -q '"status":"iteration_limit"' said || fail "one iteration: $(cat said)"
 
+refuse "hqp: --budget-us is nan, must be 0 to 1e+06 us" "$hqp" --budget-us nan good.json
+refuse "hqp: --budget-us is 2e+06, must be 0 to 1e+06 us" \
+  "$hqp" --budget-us 2e6 good.json
+refuse "hqp: --cold has an effect with --method fast only, but --method is svd" \
+  "$hqp" --method svd --cold good.json
+
 # Several files are ticks of one solver, and a solve starts from the working set of
 # the previous file. So one iteration is enough for the second file, even if the file
 # has one row fewer. With --cold, or after a file with another number of variables, the

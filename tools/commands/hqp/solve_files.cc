@@ -46,22 +46,26 @@ HqpSequence::HqpSequence(const HqpMethod& method,
     : method_(method), room_(Room(problems)) {}
 
 Status HqpSequence::Solve(const HqpProblem& problem, Solution* solution,
-                          double* microseconds) {
+                          SolveTimes* times) {
   const int n = problem.hierarchy.num_variables();
   if (method_.cold || n != num_variables_) solver_.reset();
   num_variables_ = n;
   const auto start = std::chrono::steady_clock::now();
   const Status status = Dispatch(problem, solution);
-  *microseconds = std::chrono::duration<double, std::micro>(
-                      std::chrono::steady_clock::now() - start)
-                      .count();
+  times->measured = std::chrono::duration<double, std::micro>(
+                        std::chrono::steady_clock::now() - start)
+                        .count();
+  times->modelled.reset();
+  if (solver_) times->modelled = 1e6 * solver_->modelled_seconds();
   return status;
 }
 
 Status HqpSequence::Dispatch(const HqpProblem& problem, Solution* solution) {
   const int n = problem.hierarchy.num_variables();
   if (method_.name == "fast") {
-    if (solver_ == nullptr) solver_ = std::make_unique<Solver>(n, room_);
+    if (solver_ == nullptr) {
+      solver_ = std::make_unique<Solver>(n, room_, NumRows(room_));
+    }
     solver_->max_iterations = method_.max_iterations;
     solver_->max_modelled_seconds = 1e-6 * method_.budget_us;
     return solver_->Solve(problem.hierarchy, solution);

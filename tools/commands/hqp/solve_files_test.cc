@@ -18,12 +18,11 @@ int SecondIterations(const HqpMethod& method) {
   const std::vector<HqpProblem> problems = {TwoLevels(), TwoLevels()};
   HqpSequence sequence(method, problems);
   Solution solution(1, problems[0].capacity);
-  double microseconds = -1;
+  SolveTimes times = {-1, {}};
   for (const HqpProblem& problem : problems) {
-    EXPECT_EQ(sequence.Solve(problem, &solution, &microseconds),
-              Status::kOptimal);
+    EXPECT_EQ(sequence.Solve(problem, &solution, &times), Status::kOptimal);
     EXPECT_NEAR(solution.y[0], 3, 1e-9);  // Far above rounding errors.
-    EXPECT_GE(microseconds, 0);
+    EXPECT_GE(times.measured, 0);
   }
   return solution.iterations;
 }
@@ -59,8 +58,8 @@ TEST(HqpSequence, LimitsThePredictedTime) {
     method.budget_us = budget_us;
     HqpSequence sequence(method, {problem});
     Solution solution(kRows, capacity);
-    double microseconds;
-    EXPECT_EQ(sequence.Solve(problem, &solution, &microseconds),
+    SolveTimes times;
+    EXPECT_EQ(sequence.Solve(problem, &solution, &times),
               budget_us == 0 ? Status::kOptimal : Status::kIterationLimit);
     if (budget_us > 0) {
       EXPECT_EQ(solution.iterations, 2);

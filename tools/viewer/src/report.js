@@ -33,6 +33,7 @@ function describe(run) {
   return [
     pushOf(run),
     changesOf(run),
+    budgetOf(run),
     s.fell_by && `fell: ${s.fell_by}`,
     robot && `${robot.name}, ${robot.bodies.length - 1} joints, ` +
         `${formatNumber(robot.mass)} kg`,
@@ -52,10 +53,18 @@ function changesOf({summary: {tasks}}) {
       .filter(Boolean).join(', ');
 }
 
+/** Returns the limit of the solver's time: "budget 300 µs", or "no budget". */
+function budgetOf({summary: {hqp}}) {
+  if (!hqp) return '';
+  if (!(hqp.budget_us > 0)) return 'no budget';
+  return `budget ${formatNumber(hqp.budget_us)} µs` +
+      (hqp.budget_clock ? ' by the clock' : '');
+}
+
 /** Returns a short label: the first trait in which a run differs from others. */
 function labelOf(run, runs) {
   const traits = [
-    nameOf, pushOf, changesOf, ({summary}) => summary.plant,
+    nameOf, pushOf, changesOf, budgetOf, ({summary}) => summary.plant,
     ({robot}) => robot?.name, ({summary}) => `seed ${summary.seed}`,
   ];
   const trait = traits.find(
