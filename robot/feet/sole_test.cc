@@ -204,12 +204,6 @@ TEST(FindSole, FindsTheSoleOfAMeshThatIsDrawnTilted) {
 TEST(FindSole, PrefersTheCollisionMeshAndFallsBackOnTheVisualMesh) {
   TestFile("foot.stl", BinaryStl(MakeFootMesh()));
   TestFile("small.stl", BinaryStl(BoxMesh({0, 0, -0.1f}, {0.1f, 0.05f, 0})));
-  // The folders of packages are not searched for a name without a package.
-  EXPECT_EQ(
-      WhyEstimated(OutlineOf(Leg(Collision("foot.stl")))),
-      "because mesh foot.stl: is missing or no regular file, was searched "
-      "in " +
-          folder + ": put the file there, or give the sole in a profile");
   TestFile("broken.stl", "solid\nnonsense");
   ExpectBounds(
       FindSole(OutlineOf(Leg(Visual("foot.stl") + Collision("small.stl"))),
@@ -244,6 +238,12 @@ TEST(MakeOutlines, SaysWhyAMeshGivesNoPoints) {
                 folder +
                 " and above: give --package-path DIR, in Python "
                 "packages=[DIR], or the sole in a profile");
+  // The folders of packages are not searched for a name without a package.
+  EXPECT_EQ(
+      WhyEstimated(OutlineOf(Leg(Collision("none.stl")))),
+      "because mesh none.stl: is missing or no regular file, was searched "
+      "in " +
+          folder + ": put the file there, or give the sole in a profile");
   TestFile("broken.stl", "solid\nnonsense");
   EXPECT_EQ(WhyEstimated(OutlineOf(Leg(Collision("broken.stl")))),
             "because mesh " + folder +

@@ -105,6 +105,7 @@ TEST(WriteHqpSolution, HasAllKeysOfTheFormat) {
   EXPECT_EQ(out["certificate"]["priority"], 4);
   EXPECT_EQ(out["iterations"], solution.iterations);
   EXPECT_EQ(out["microseconds"], 5);
+  EXPECT_EQ(out["modelled_us"], 4);
   EXPECT_TRUE(out["failed_level"].is_null());
   EXPECT_EQ(out["certified_levels"], 3);
 }
@@ -156,7 +157,7 @@ TEST_F(UnfinishedTest, WritesNoCertificateIfNoLevelIsCertified) {
     for (const json& number : out["certificate"]) {
       EXPECT_TRUE(number.is_null());
     }
-    EXPECT_NE(Said().find("us, no certificate\n"), std::string::npos);
+    EXPECT_NE(Said().find("us predicted, no certificate\n"), std::string::npos);
   }
   // The Cascade has an additional last level, the norm of y.
   EXPECT_EQ(Written(Status::kIterationLimit, 3)["certified_levels"], 3);
