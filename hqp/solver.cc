@@ -137,11 +137,9 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
       problem_.Plan(hierarchy, hierarchy.num_levels());
       problem_.SolveLeading(hierarchy, side_);
       KeepSearch(hierarchy, solution);
-    } else {
-      if (!WriteSolution(hierarchy, solution) || solution->failed_level >= 0) {
-        certifier_.Truncate(hierarchy, solution);
-      }
-      if (budget->is_spent()) search_.Stop(hierarchy, problem_, &side_);
+    } else if (!WriteSolution(hierarchy, solution) ||
+               solution->failed_level >= 0) {
+      certifier_.Truncate(hierarchy, solution);
     }
   }
   solution->iterations = budget->iterations();

@@ -56,6 +56,7 @@ class CostOrderTest : public testing::Test {
     EqualityBlock first = hierarchy_.AddEqualities(0, 1);
     first.B << 1, -1;
     weight_ = first.weight.data();
+    offset_ = first.b.data();
     InequalityBlock second = hierarchy_.AddInequalities(1, 2);
     second.C << 1, 0, 0, 1;
     second.lower << -1, -1e9;
@@ -72,6 +73,7 @@ class CostOrderTest : public testing::Test {
 
   Hierarchy hierarchy_{2, {{1, 0}, {0, 2}, {1, 0}}};
   double* weight_;
+  double* offset_;
 };
 
 TEST_F(CostOrderTest, TheFirstLevelThatDiffersDecides) {
@@ -110,6 +112,14 @@ TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothing) {
   EXPECT_FALSE(IsBetter({-large, -large + 4e-4}, {-2 * large, -2 * large}));
 }
 
+// Where a row misses its target by 1, the rounding 4e-7 changes the cost by 8e-7 of it.
+TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothingBesideAResidual) {
+  const double large = 1e8;
+  *offset_ = 1;
+  EXPECT_TRUE(IsBetter({-large, -large - 4e-7}, {-2 * large, -2 * large}));
+  EXPECT_FALSE(IsBetter({-large, -large - 4e-4}, {-2 * large, -2 * large}));
+}
+
 // A row of weight 1e6 that is met does not hide that another level misses more: there, the
 // rows b = 1 and b = -1 contradict each other.
 TEST(CostOrder, ARowOfLargeWeightThatIsMetHidesNothing) {
@@ -142,6 +152,18 @@ TEST(CostOrder, RoundingAtACompromiseOfBoundsDecidesNothing) {
     EXPECT_TRUE(IsBetter(hierarchy, better, worse)) << i;
     EXPECT_FALSE(IsBetter(hierarchy, worse, better)) << i;
   }
+}
+
+// y_0 >= 1e4 is missed by 1e4 or by 1e-9 less. The cost changes by 2e-13 of itself, which is
+// rounding of its terms, though C y is 0.
+TEST(CostOrder, RoundingOfTheTermsOfASlackDecidesNothing) {
+  Hierarchy hierarchy(2, {{0, 1}, {1, 0}});
+  InequalityBlock bound = hierarchy.AddInequalities(0, 1);
+  bound.C << 1, 0;
+  bound.lower << 1e4;
+  hierarchy.AddEqualities(1, 1).B << 0, 1;
+  EXPECT_TRUE(IsBetter(hierarchy, {0, 0}, {1e-9, 1}));
+  EXPECT_FALSE(IsBetter(hierarchy, {0, 0}, {1e-3, 1}));
 }
 
 // The points differ in the nullspace of the levels above one that is drawn, so that these

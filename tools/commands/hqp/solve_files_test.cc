@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <vector>
 
 namespace poise {
@@ -64,6 +65,42 @@ TEST(HqpSequence, LimitsThePredictedTime) {
     if (budget_us > 0) {
       EXPECT_EQ(solution.iterations, 2);
     }
+  }
+}
+
+// A replay is exact if the solver keeps as many factors as a controller's: the answers are
+// the same to the last bit.
+TEST(HqpSequence, RepeatsTheSolverOfAController) {
+  constexpr int kVariables = 12, kRows = 40;
+  const std::vector<LevelCapacity> capacity = {
+      {3, kRows}, {4, kRows}, {kVariables, 0}};
+  Solver controller(kVariables, capacity, 2 * (kVariables + kRows));
+  Solution expected(kVariables, capacity), solution(kVariables, capacity);
+  HqpProblem problem{capacity, Hierarchy(kVariables, capacity), {}};
+  HqpSequence sequence({}, {problem});
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (int tick = 0; tick < 60; ++tick) {
+    Hierarchy& hierarchy = problem.hierarchy;
+    hierarchy.Clear(3);
+    const auto draw = [&](auto&& rows) {
+      for (auto row : rows.rowwise()) {
+        for (double& entry : row) entry = normal(random);
+      }
+    };
+    for (const int level : {0, 1}) {
+      EqualityBlock targets = hierarchy.AddEqualities(level, 3 + level);
+      draw(targets.B);
+      draw(targets.b);
+      InequalityBlock bounds = hierarchy.AddInequalities(level, kRows);
+      draw(bounds.C);
+      draw(bounds.upper);
+    }
+    hierarchy.AddEqualities(2, kVariables).B.setIdentity();
+    SolveTimes times;
+    EXPECT_EQ(sequence.Solve(problem, &solution, &times),
+              controller.Solve(hierarchy, &expected));
+    EXPECT_EQ(solution.y, expected.y) << tick;
   }
 }
 
