@@ -66,8 +66,8 @@ class Solver::Impl {
   ActiveSetSearch search_;
   MultiplierWriter writer_;
   Certifier certifier_;
-  std::vector<std::vector<Side>> side_, first_side_, best_side_, solved_side_;
-  std::vector<double> value_, first_y_, best_y_;
+  std::vector<std::vector<Side>> side_, best_side_, solved_side_;
+  std::vector<double> value_, best_y_;
 };
 
 Solver::Impl::Impl(int num_variables,
@@ -83,9 +83,8 @@ Solver::Impl::Impl(int num_variables,
     side_.emplace_back(level.inequalities, Side::kNone);
     most = std::max(most, level.inequalities);
   }
-  first_side_ = best_side_ = solved_side_ = side_;
+  best_side_ = solved_side_ = side_;
   value_.resize(most);
-  first_y_.resize(n_);
   best_y_.resize(n_);
 }
 
@@ -142,13 +141,13 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
       certifier_.Truncate(hierarchy, solution);
     }
   }
-  solution->iterations = budget->iterations();
   num_cut_off_ = budget->is_spent() && !starts_over ? num_cut_off + 1 : 0;
   if (!solution->y.allFinite()) {
     // The next search must not go on from numbers that have overflowed.
     Forget();
     Refuse(hierarchy, Status::kNotFinite, 0, solution);
   }
+  solution->iterations = budget->iterations();
   return solution->status;
 }
 
@@ -187,18 +186,11 @@ void Solver::Impl::RecallSearch() {
 // false if the budget, or `limit` iterations of it, did not suffice.
 bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget) {
-  first_side_ = side_;
-  first_y_ = search_.y();
   for (int pass = 0;; ++pass) {
-    // Refinement has found violated rows, mostly in their last digits. A path from the
-    // last optimum would follow this rounding.
+    // Refinement has found rows violated in their last digits. A path from the last
+    // optimum would follow this rounding.
     if (pass > 0) search_.ForgetPath();
     if (!search_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
-      // The point that pass 0 took for the optimum may be worse than the first one.
-      if (pass > 0 && IsBetter(hierarchy, first_y_, search_.y())) {
-        side_ = first_side_;
-        search_.set_y(first_y_);
-      }
       return false;
     }
     problem_.Refine(hierarchy);

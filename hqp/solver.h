@@ -54,10 +54,10 @@ class Solver {
 
   /// Largest number of iterations in the search of one solve. Each factors the levels
   /// or updates them; the first may factor them several times.
-  /// Solution::iterations is the number used. Up to three more factorisations may follow or
-  /// precede, to start anew, or to write the answer of a search that did not finish. In that case the levels above
-  /// failed_level are optimal, and y is the best of the points that the search compares
-  /// when it ends (docs/limits.md). With a limit of 1, solves of one hierarchy may stay at
+  /// Solution::iterations is the number used. Up to three more factorisations start a search
+  /// anew or write its answer. If the search did not finish, the levels
+  /// above failed_level are optimal, and y is the best of the points that the search
+  /// compares when it ends (docs/limits.md). With a limit of 1, solves of one hierarchy may stay at
   /// the same y.
   int max_iterations = 500;
 

@@ -134,8 +134,8 @@ void BindSolver(py::module_* module) {
         self.max_modelled_seconds =
             AsNotNegative(value, "max_modelled_seconds");
       },
-      "The limit of the predicted time of a solve, s; 0: no limit. The next "
-      "solve goes on where it ended this one.");
+      "The limit of the predicted time of a solve, s; 0: no limit. After a "
+      "solve that was cut off, the next one goes on from there.");
   solver.def(
       "solve",
       [](PythonSolver& self, py::handle hierarchy) {

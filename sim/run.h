@@ -37,7 +37,7 @@ struct RunResult {
   bool interrupted = false;
   long ticks = 0;
   TickTimes tick_us;      ///< Computing time of the controller.
-  TickTimes modelled_us;  ///< Solver::modelled_seconds(), the same in each run.
+  TickTimes modelled_us;  ///< Solver::modelled_seconds().
   int iterations_max = 0;
   double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
   double gap_max = 0;  ///< Largest Certificate::relative_gap of all ticks.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <unistd.h>
 
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -39,7 +40,12 @@ std::string LimitsOf(const poise::ControlSettings& control) {
       "--max-iterations " +
       std::to_string(poise::ControllerOptions().max_iterations) + " ";
   if (control.budget_us > 0 && !control.budget_clock) {
-    limits += "--budget-us " + poise::PrintNumber(control.budget_us) + " ";
+    char digits[32];
+    limits += "--budget-us ";
+    limits.append(
+        digits,
+        std::to_chars(digits, digits + sizeof(digits), control.budget_us).ptr);
+    limits += " ";
   }
   return limits;
 }

@@ -12,7 +12,7 @@ namespace {
 
 struct Cost {
   double cost;  // Twice the cost of a level.
-  double size;  // Its change by a relative change of 1 of each term.
+  double size;  // Half of its change by a relative change of 1 of each term.
 };
 
 // Calls use(i, r_i y) for `count` rows, n entries apart.

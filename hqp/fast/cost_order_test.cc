@@ -120,8 +120,8 @@ TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothingBesideAResidual) {
   EXPECT_FALSE(IsBetter({-large, -large - 4e-4}, {-2 * large, -2 * large}));
 }
 
-// A row of weight 1e6 that is met does not hide that another level misses more: there, the
-// rows b = 1 and b = -1 contradict each other.
+// The rows y_1 = 1 and y_1 = -1 contradict each other. A row of weight 1e6 that is met does
+// not hide that they are missed by more.
 TEST(CostOrder, ARowOfLargeWeightThatIsMetHidesNothing) {
   Hierarchy hierarchy(2, {{3, 0}, {1, 0}});
   EqualityBlock first = hierarchy.AddEqualities(0, 3);
@@ -148,7 +148,7 @@ TEST(CostOrder, RoundingAtACompromiseOfBoundsDecidesNothing) {
   second.B << 0, 1;
   for (int i = 1; i < 2000; ++i) {
     const std::vector<double> better = {i * 3.7e-12, 0};
-    const std::vector<double> worse = {i * -2.3e-12, 1e-3};
+    const std::vector<double> worse = {i * -2.3e-12, 1e-6};
     EXPECT_TRUE(IsBetter(hierarchy, better, worse)) << i;
     EXPECT_FALSE(IsBetter(hierarchy, worse, better)) << i;
   }

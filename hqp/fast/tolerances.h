@@ -45,8 +45,7 @@ constexpr double kZeroRow = 1e-300;
 
 /// Working set: a row whose bound is beyond this is not kept from the last solve, and is not
 /// flipped. At such a large y, the other rows, with terms near 1, lose all 15 digits to
-/// rounding. Ten times larger or
-/// smaller, no count changes.
+/// rounding. Ten times larger or smaller, no count changes.
 constexpr double kInfiniteBound = 1e15;
 
 /// Factorisation: a projection that leaves less than this part of a row's

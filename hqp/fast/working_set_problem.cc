@@ -97,7 +97,6 @@ bool WorkingSetProblem::IsDiagonal(const Hierarchy& hierarchy, int level) {
                                             return std::abs(x) < std::abs(y);
                                           }) -
                          row);
-    if (std::abs(row[variable]) != B_norm_[level][i]) return false;
   }
   return true;
 }

@@ -39,8 +39,7 @@ void CheckTimes(const ControllerOptions& options) {
         std::pair("max_seconds", options.max_seconds)}) {
     if (limit >= 0) continue;
     throw std::invalid_argument(std::string(name) + " is " +
-                                std::to_string(limit) +
-                                " s, must be 0 or more");
+                                PrintNumber(limit) + " s, must be 0 or more");
   }
 }
 

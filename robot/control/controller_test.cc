@@ -368,7 +368,7 @@ TEST_F(ControllerTest, RejectsInvalidOptionsAndRobots) {
   options = {};
   options.max_modelled_seconds = -1e-3;
   EXPECT_EQ(message(options),
-            "max_modelled_seconds is -0.001000 s, must be 0 or more");
+            "max_modelled_seconds is -0.001 s, must be 0 or more");
   options = {};
   options.max_seconds = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(message(options), "max_seconds is nan s, must be 0 or more");

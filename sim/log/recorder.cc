@@ -273,16 +273,16 @@ void Recorder::Record(const TickRecord& record) {
   rows_->EndRow(&log_rows_);
   hash_.Update(std::string_view(log_rows_).substr(before));
 
-  const auto microseconds = [this](double value) {
+  const auto append_us = [this](double value) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof(digits), value,
                                    std::chars_format::fixed, 2);
     timing_rows_.append(digits, end.ptr);
   };
   timing_rows_ += std::to_string(record.tick) + ',';
-  microseconds(record.microseconds);
+  append_us(record.microseconds);
   timing_rows_ += ',' + std::to_string(record.report.iterations) + ',';
-  microseconds(1e6 * record.report.modelled_seconds);
+  append_us(1e6 * record.report.modelled_seconds);
   timing_rows_ += '\n';
   if (++rows_waiting_ >= kRowsAtOnce) Flush();
 }

@@ -20,7 +20,7 @@ namespace poise {
 ///     log.csv     one row per tick: the plant's true state, then the output of
 ///                 the controller. Equal runs give equal bytes, in any locale.
 ///                 With LogFormat::kBinary the file is log.bin, see LogRows.
-///     timing.csv  tick, us, iterations, modelled_us. Times differ from run to run.
+///     timing.csv  tick, us, iterations, modelled_us. `us` differs from run to run.
 ///
 /// Only complete rows are written, every 50 ticks. So a run that crashes or is
 /// killed leaves files that can be read.

@@ -31,7 +31,8 @@ bool IsTruncatedBefore(double time, const RunStory& story) {
   });
 }
 
-// Returns the budget, us, or 0 if no solve spent it: 500 iterations may end a solve, too.
+// Returns the budget, us, or 0 if no solve took so long: a limit of iterations may end
+// solves, too.
 double FindBudget(const json& summary) {
   const json hqp = summary.value("hqp", json::object());
   if (!hqp.is_object()) return 0;

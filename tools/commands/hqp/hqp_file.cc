@@ -19,9 +19,9 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The solver's memory grows with the square of their number, 0.3 GB for this one.
+// The solver's memory grows with the square of this number, 0.3 GB for 2000.
 constexpr int kMostVariables = 2000;
-// The output grows with the square of their number.
+// The output grows with the square of the number of levels.
 constexpr size_t kMostLevels = 1000;
 
 [[noreturn]] void Refuse(const std::string& where, const std::string& what) {

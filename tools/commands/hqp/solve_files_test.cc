@@ -38,8 +38,8 @@ TEST(HqpSequence, StartsColdIfRequested) {
   EXPECT_EQ(SecondIterations(method), 2);
 }
 
-// A push of 10 units against 20 bounds needs a change of the working set for each, a budget
-// of 1 us allows two iterations.
+// A target beyond 20 bounds needs a change of the working set for each of them. A budget of
+// 1 us allows two iterations.
 TEST(HqpSequence, LimitsThePredictedTime) {
   constexpr int kRows = 20;
   const std::vector<LevelCapacity> capacity = {{0, kRows}, {kRows, 0}};
@@ -62,6 +62,8 @@ TEST(HqpSequence, LimitsThePredictedTime) {
     SolveTimes times;
     EXPECT_EQ(sequence.Solve(problem, &solution, &times),
               budget_us == 0 ? Status::kOptimal : Status::kIterationLimit);
+    ASSERT_TRUE(times.modelled.has_value());
+    EXPECT_GT(*times.modelled, 1);  // Two iterations take longer than 1 us.
     if (budget_us > 0) {
       EXPECT_EQ(solution.iterations, 2);
     }

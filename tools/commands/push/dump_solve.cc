@@ -23,8 +23,9 @@ std::string Text(double time, double dt, int width = 0) {
   return text;
 }
 
-void Check(const DumpedTicks& ticks, double duration) {
-  if (!(ticks.last >= 0 && ticks.last < duration)) {
+void Check(const DumpedTicks& ticks, double dt, double duration) {
+  if (!(ticks.last >= 0 && ticks.last < duration &&
+        std::lround(ticks.last / dt) < std::lround(duration / dt))) {
     throw std::invalid_argument("the solve at " + std::to_string(ticks.last) +
                                 " s is outside the scenario, which ends at " +
                                 std::to_string(duration) + " s");
@@ -61,7 +62,7 @@ std::filesystem::path DumpSolve(const Experiment& experiment,
                                 const std::filesystem::path& folder) {
   const auto& [robot, scenario] = experiment;
   const double dt = scenario.control.dt;
-  Check(ticks, scenario.duration);
+  Check(ticks, dt, scenario.duration);
   const long first = std::lround(ticks.first / dt);
   const long last = std::lround(ticks.last / dt);
   const std::string last_text = Text(ticks.last, dt);
@@ -69,8 +70,11 @@ std::filesystem::path DumpSolve(const Experiment& experiment,
   const std::filesystem::path to =
       is_one ? folder
              : folder / ("solves_" + Text(ticks.first, dt) + "_" + last_text);
-  std::filesystem::create_directories(to);
-  if (!is_one) MakeEmpty(to);
+  if (is_one) {
+    std::filesystem::create_directories(to);
+  } else {
+    MakeEmpty(to);
+  }
   ClosedLoop loop(robot, scenario);
   for (long tick = 0; tick <= last; ++tick) {
     loop.Tick();

@@ -7,8 +7,8 @@
 
 namespace poise {
 
-/// The ticks of a run whose hierarchies are written: the last at or before `last`, and
-/// those from `first` to it, s.
+/// The ticks of a run whose hierarchies are written: those nearest to these times, s, and
+/// all between them.
 struct DumpedTicks {
   double first, last;
 };
@@ -17,9 +17,10 @@ struct DumpedTicks {
 /// FOLDER/solve_TIME.json in the format hqp-1. If `first` is earlier, writes one file a
 /// tick to FOLDER/solves_FIRST_LAST instead, in the order of their names; earlier files
 /// there are removed. `//tools:hqp` solves the files again. The function runs the
-/// scenario up to `last`. The run is the same to the bit, so the hierarchies are exactly
-/// those of the original run. Solved in order from the first tick of the run, with the
-/// same budget, they give the same answers.
+/// scenario up to `last`. Without a budget by the clock, the run is the same to the bit, so
+/// the hierarchies are exactly those of the original run. Solved in order from the first
+/// tick of the run, with the same budget, they give the same answers, if no tick failed
+/// safe.
 ///
 /// Returns the name of the file, or `solves_FIRST_LAST/solve_*.json`. Throws
 /// std::invalid_argument if a time is not in the scenario, if `first` is after `last`, if

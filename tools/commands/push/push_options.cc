@@ -183,7 +183,8 @@ Files ParseOptions(int argc, char** argv, Overrides* overrides) {
   dump->check(CLI::Range(0.0, 1e6));
   app.add_option("--dump-from", files.dump_from,
                  "with --dump-solve: write those of all ticks from this time "
-                 "on; from 0 on, hqp repeats solves with a budget, too")
+                 "on; from 0 on, hqp repeats solves with a budget, too, "
+                 "but for --budget-clock")
       ->check(CLI::Range(0.0, 1e6))
       ->needs(dump);
   app.add_flag("--no-report", files.no_report, "do not write report.html");

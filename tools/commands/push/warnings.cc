@@ -69,7 +69,7 @@ std::string BudgetWarning(const ControlSettings& control) {
   return "the budget is " + PrintNumber(control.budget_us) +
          " us, more than a third of the control period, " +
          PrintNumber(period_us) +
-         " us: a tick may end late, see docs/failures.md";
+         " us: on a robot, a tick may end late, see docs/failures.md";
 }
 
 }  // namespace poise

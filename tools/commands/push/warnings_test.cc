@@ -49,7 +49,7 @@ TEST(BudgetWarning, IsForMoreThanAThirdOfThePeriod) {
   control.budget_us = 1001;
   EXPECT_EQ(BudgetWarning(control),
             "the budget is 1001 us, more than a third of the control period, "
-            "3000 us: a tick may end late, see docs/failures.md");
+            "3000 us: on a robot, a tick may end late, see docs/failures.md");
 }
 
 }  // namespace

@@ -68,8 +68,8 @@ const NUMBERS = [
     unit: '',
     value: (s) => s.hqp.certificate_max,
     why: (s) => `Every solution is checked. At most ${s.hqp.iterations_max} ` +
-        `iterations. ${s.hqp.failures || 'No'} tick` +
-        `${s.hqp.failures === 1 ? ' was' : 's were'} not solved to the ` +
+        `iterations. ${s.hqp.failures ? `${s.hqp.failures} of ` : 'All '}` +
+        `${s.ticks} ticks were ${s.hqp.failures ? 'not ' : ''}solved to the ` +
         `last level. Gaps of solved levels are at most ` +
         `${formatNumber(s.gap_max)} of the level's cost.`,
   },
