@@ -56,9 +56,12 @@ NOT_RUN = {
 # Commands that build with --config=opt, or need what those build.
 OPTIMISED = r"--config=opt|poise-env"
 
-# Commands that end with another exit code than 0: the robot falls.
+# Commands that end with another exit code than 0: the robot falls, or a budget cuts
+# ticks off.
 EXIT_CODES = {
     "bazel run //tools:push -- --scenario strong_push_without_zmp": 1,
+    "bazel run //tools:hqp -- --budget-us 80 --max-iterations 500 "
+    "push-out/strong_push/solves_0.000_1.060/solve_*.json": 1,
 }
 
 
