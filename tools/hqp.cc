@@ -20,7 +20,8 @@
 namespace poise {
 namespace {
 
-// Refuses values that CLI11 accepts, such as NaN, and options without an effect.
+// Refuses values that CLI11 accepts, such as NaN, and a budget that has no effect. Warns of
+// an iteration limit without effect; each solve of the cascade is cold.
 void CheckMethod(const CLI::App& app, const HqpMethod& method) {
   constexpr double kMostUs = 1e6;
   if (!(method.budget_us >= 0 && method.budget_us <= kMostUs)) {
@@ -29,12 +30,13 @@ void CheckMethod(const CLI::App& app, const HqpMethod& method) {
                                 ", must be 0 to 1e+06 us");
   }
   if (method.name == "fast") return;
-  for (const char* option : {"--budget-us", "--max-iterations", "--cold"}) {
-    if (app.count(option) == 0) continue;
-    throw std::invalid_argument(std::string(option) +
-                                " has an effect with --method fast only, but "
-                                "--method is " +
-                                method.name);
+  const std::string why =
+      " has an effect with --method fast only, but --method is " + method.name;
+  if (app.count("--budget-us") > 0) {
+    throw std::invalid_argument("--budget-us" + why);
+  }
+  if (app.count("--max-iterations") > 0) {
+    std::cerr << "hqp: --max-iterations" << why << ", ignored\n";
   }
 }
 

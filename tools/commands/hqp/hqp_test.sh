@@ -50,8 +50,12 @@ grep -q '"status":"iteration_limit"' said || fail "one iteration: $(cat said)"
 refuse "hqp: --budget-us is nan, must be 0 to 1e+06 us" "$hqp" --budget-us nan good.json
 refuse "hqp: --budget-us is 2e+06, must be 0 to 1e+06 us" \
   "$hqp" --budget-us 2e6 good.json
-refuse "hqp: --cold has an effect with --method fast only, but --method is svd" \
-  "$hqp" --method svd --cold good.json
+refuse "hqp: --budget-us has an effect with --method fast only, but --method is svd" \
+  "$hqp" --method svd --budget-us 100 good.json
+"$hqp" --json --method svd --cold --max-iterations 9 good.json > said 2> error ||
+  fail "exit code $? for svd with a limit of iterations"
+[ "$(cat error)" = "hqp: --max-iterations has an effect with --method fast only, $(
+  )but --method is svd, ignored" ] || fail "svd prints: $(cat error)"
 
 # Several files are ticks of one solver, and a solve starts from the working set of
 # the previous file. So one iteration is enough for the second file, even if the file
