@@ -96,6 +96,7 @@ class SolverTest(unittest.TestCase):
             self.assertLess(len(costs), 100)
         self.assertGreater(len(costs), 2)
         wanted = poise.Solver(n).solve(hierarchy).levels[1].cost
+        # Both are certified to 1e-9.
         np.testing.assert_allclose(costs[-1], wanted, rtol=1e-9)
         with self.assertRaisesRegex(
                 poise.InputError, "max_modelled_seconds is nan.*0 or more"):
