@@ -120,6 +120,22 @@ TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothingBesideAResidual) {
   EXPECT_FALSE(IsBetter({-large, -large - 4e-4}, {-2 * large, -2 * large}));
 }
 
+// The terms 1000 and -999 leave a residual of 1. Its rounding counts, not that of 1999: a
+// change of the cost by 1e-7 decides, though the last level is worse.
+TEST_F(CostOrderTest, TermsThatCancelDoNotCountAsAResidual) {
+  *offset_ = -999;
+  EXPECT_TRUE(IsBetter({1000, 5e-8}, {1000, 0}));
+  EXPECT_FALSE(IsBetter({1000, 0}, {1000, 5e-8}));
+}
+
+// Entries of 2e8 are right to 1e-13 of it, so that their difference is right to 4e-5. A
+// residual of 6e-5 is near that: it may be 2e-5, and its cost decides nothing.
+TEST_F(CostOrderTest, TheWorsePointIsRoundedToo) {
+  const double large = 1e8;
+  EXPECT_TRUE(IsBetter({-large, -large - 6e-5}, {-2 * large, -2 * large}));
+  EXPECT_FALSE(IsBetter({-2 * large, -2 * large}, {-large, -large - 6e-5}));
+}
+
 // The rows y_1 = 1 and y_1 = -1 contradict each other. A row of weight 1e6 that is met does
 // not hide that they are missed by more.
 TEST(CostOrder, ARowOfLargeWeightThatIsMetHidesNothing) {
