@@ -15,9 +15,8 @@ struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_AB.
   Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< p_AB_A, m.
 
-  Pose Inverse() const noexcept {
-    return {R.transpose(), -(R.transpose() * p)};
-  }
+  /// Returns X_BA = [R', -R' p].
+  Pose Inverse() const noexcept;
 };
 
 /// Returns X_AC = [R_AB R_BC, R_AB p_BC_B + p_AB_A]. Each column is a linear
@@ -50,9 +49,7 @@ inline Pose operator*(const Pose& X_AB, const Pose& X_BC) noexcept {
 }
 
 /// Returns the position p_AQ_A of the point with position p_BQ_B.
-inline Eigen::Vector3d operator*(const Pose& X_AB,
-                                 const Eigen::Vector3d& p_BQ_B) noexcept {
-  return X_AB.R * p_BQ_B + X_AB.p;
-}
+Eigen::Vector3d operator*(const Pose& X_AB,
+                          const Eigen::Vector3d& p_BQ_B) noexcept;
 
 }  // namespace poise

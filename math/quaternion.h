@@ -28,11 +28,7 @@ Eigen::Quaterniond Rescale(const Eigen::Quaterniond& q) noexcept;
 
 /// Returns the unit quaternion in the direction of q, for any norm of q but 0.
 /// Zero, a NaN or an infinity gives NaN in all components.
-inline Eigen::Quaterniond Normalize(const Eigen::Quaterniond& q) noexcept {
-  const double square = q.squaredNorm();
-  if (!IsSafeSquare(square)) return Rescale(q).normalized();
-  return Eigen::Quaterniond(q.coeffs() / std::sqrt(square));
-}
+Eigen::Quaterniond Normalize(const Eigen::Quaterniond& q) noexcept;
 
 /// Returns the rotation matrix of a unit quaternion: 1 - 2 (y² + z²), ... It is
 /// the inverse of QuaternionFromMatrix(). q and -q give the same matrix.
@@ -45,35 +41,14 @@ inline Eigen::Matrix3d MatrixFromQuaternion(
 ///     [sin(|w|/2) w/|w|; cos(|w|/2)].
 /// The error is that of ExpSo3(). A NaN, an infinity or |w| > 1e154 gives NaN
 /// in all components.
-inline Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept {
-  const Eigen::Vector3d half = 0.5 * w;
-  const Stumpff c = ComputeStumpff(half);
-  return {1 - c.c2 * half.squaredNorm(), c.c1 * half.x(), c.c1 * half.y(),
-          c.c1 * half.z()};
-}
+Eigen::Quaterniond ExpQuaternion(const Eigen::Vector3d& w) noexcept;
 
 /// Returns the rotation vector of q, of norm at most π. q and -q give the same
 /// vector.
 ///
 /// q may have any norm but 0. The error is that of LogSo3(). Zero, a NaN or an
 /// infinity gives NaN in all components.
-inline Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept {
-  double w = q.w();
-  Eigen::Vector3d v = q.vec();
-  double square = v.squaredNorm();
-  if (!IsSafeSquare(square + w * w)) {
-    const Eigen::Quaterniond rescaled = Rescale(q);
-    w = rescaled.w();
-    v = rescaled.vec();
-    square = v.squaredNorm();
-  }
-  // An underflow may round the square of a tiny sine, but atan2(x, y) / x
-  // hardly depends on x there. Only a sine of zero needs a limit instead of the
-  // quotient.
-  const double sine = std::sqrt(square);
-  if (sine == 0) return 2 / w * v;
-  return std::copysign(2 / sine, w) * std::atan2(sine, std::abs(w)) * v;
-}
+Eigen::Vector3d LogQuaternion(const Eigen::Quaterniond& q) noexcept;
 
 /// Returns (w, x, y, z), the order of URDF tools, MuJoCo and most books. Use it
 /// at the borders of the program.

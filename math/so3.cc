@@ -6,6 +6,10 @@
 
 namespace poise {
 
+Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept {
+  return LogQuaternion(Eigen::Quaterniond(R));
+}
+
 Eigen::Matrix3d InterpolateSo3(const Eigen::Matrix3d& R_0,
                                const Eigen::Matrix3d& R_1, double t) noexcept {
   return R_0 * ExpSo3(t * LogSo3(R_0.transpose() * R_1));

@@ -50,9 +50,7 @@ inline Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& w) noexcept {
 /// pre: R is a rotation. An error e of R gives an error O(e) of the vector.
 /// The error is at most 4 eps |w|, for |w| from 1e-300 to π. A NaN or an
 /// infinity gives NaN in all entries.
-inline Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept {
-  return LogQuaternion(Eigen::Quaterniond(R));
-}
+Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept;
 
 /// Returns the rotation at fraction t of the shorter arc from R_0 (t = 0) to
 /// R_1 (t = 1), at a constant angular velocity:

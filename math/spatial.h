@@ -27,7 +27,7 @@ enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 /// Accelerations are classical: the linear part is the rate of the point's
 /// velocity. A shift to another point depends on the angular velocity. (The
 /// spatial acceleration of Featherstone is the classical one less [0; w x v].)
-/// All functions are inline, allocate nothing and throw nothing; NaN and
+/// No function allocates or throws; all but CrossMatrix() are inline. NaN and
 /// infinity propagate.
 template <SpatialKind kind>
 struct SpatialVector {
@@ -162,11 +162,6 @@ inline SpatialForce Cross(const SpatialMotion& V,
 ///     [ Hat(w)    0    ]
 ///     [ Hat(v)  Hat(w) ].
 /// The matrix for forces and momenta is -CrossMatrix(V)'.
-inline Matrix6d CrossMatrix(const SpatialMotion& V) noexcept {
-  const Eigen::Matrix3d W = Hat(V.angular);
-  Matrix6d ad;
-  ad << W, Eigen::Matrix3d::Zero(), Hat(V.linear), W;
-  return ad;
-}
+Matrix6d CrossMatrix(const SpatialMotion& V) noexcept;
 
 }  // namespace poise

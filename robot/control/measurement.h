@@ -36,10 +36,7 @@ struct Measurement {
 
 /// Whether all values are finite and below 1e6 (in m or rad, also per s or s2).
 /// For larger values, the dynamics would overflow. Does not allocate.
-inline bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) noexcept {
-  constexpr double kLargest = 1e6;
-  return x.allFinite() && x.lpNorm<Eigen::Infinity>() < kLargest;
-}
+bool IsBelievable(const Eigen::Ref<const Eigen::MatrixXd>& x) noexcept;
 
 /// Estimated state of the robot, the input of the controller. dynamics/tree.h
 /// defines q and v.

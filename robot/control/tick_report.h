@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -77,15 +75,7 @@ struct TickReport {
 
   /// Resets the numbers of the solution, for a tick in which the solver did not
   /// run.
-  void ClearAnswer() noexcept {
-    solver_status = Status::kOptimal;
-    failed_level = iterations = 0;
-    modelled_seconds = dynamics_residual = 0;
-    y.setZero();
-    for (TaskReport& task : tasks) task.residual = task.slack = 0;
-    certificate = {};
-    std::fill(gap.begin(), gap.end(), std::numeric_limits<double>::quiet_NaN());
-  }
+  void ClearAnswer() noexcept;
 
   /// Returns λ of a foot, [moment; force]; nv is Tree::nv().
   Eigen::Matrix<double, 6, 1> foot_wrench(int nv, int foot) const {
