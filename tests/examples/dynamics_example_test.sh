@@ -45,7 +45,7 @@ if [ -n "${POISE_WHOLE_EXAMPLE:-}" ]; then
 else
   build --nobuild //:simulate
   # One library is enough to show that the workspace compiles.
-  build @poise//math:so3
+  build @poise//math:rpy
 fi
 loaded=$(ls "$(run_bazel info output_base 2> /dev/null)/external")
 if ! grep -qx poise <<< "$loaded" ||
