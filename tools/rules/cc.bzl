@@ -50,9 +50,6 @@ def _precompiled_eigen(deps):
         "robot/urdf",
         "sim/log",
     )
-    slow = "@cli11" in deps or "@nlohmann_json" in deps
-    if slow and package.split("/")[0] == "tools":
-        return _precompiled("commands")
     return _precompiled("eigen_og" if quick else "eigen")
 
 def poise_cc_library(name, copts = [], deps = [], **kwargs):
