@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "poise/math/stumpff.h"
+
 namespace poise {
 
 Eigen::Quaterniond QuaternionFromMatrix(const Eigen::Matrix3d& R) noexcept {

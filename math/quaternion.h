@@ -2,9 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cmath>
 
-#include "poise/math/stumpff.h"
+#include "poise/math/eigen_alignment.h"
 
 namespace poise {
 

@@ -4,6 +4,8 @@
 #include <Eigen/SVD>
 #include <limits>
 
+#include "poise/math/quaternion.h"
+
 namespace poise {
 
 Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) noexcept {

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include "poise/math/quaternion.h"
 #include "poise/math/stumpff.h"
 
 namespace poise {

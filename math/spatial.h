@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "poise/math/pose.h"
-#include "poise/math/so3.h"
 #include "poise/math/vector6.h"
 
 namespace poise {
@@ -27,8 +26,7 @@ enum class SpatialKind { kMotion, kAcceleration, kForce, kMomentum };
 /// Accelerations are classical: the linear part is the rate of the point's
 /// velocity. A shift to another point depends on the angular velocity. (The
 /// spatial acceleration of Featherstone is the classical one less [0; w x v].)
-/// No function allocates or throws; all but CrossMatrix() are inline. NaN and
-/// infinity propagate.
+/// No function allocates or throws. NaN and infinity propagate.
 template <SpatialKind kind>
 struct SpatialVector {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();

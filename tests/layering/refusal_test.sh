@@ -18,7 +18,8 @@ run_bazel() {
     > "$TEST_TMPDIR/log" 2>&1
 }
 
-# Compiles a library without its dependencies, which linking would need.
+# Usage: build TARGET: compiles the sources of a library. Linking it would compile
+# its dependencies too. One file does not repay the time of a precompiled header.
 build() {
   run_bazel build --define=precompiled=0 --output_groups=compilation_outputs "$@"
 }

@@ -21,8 +21,9 @@ SOLVER = Parts(("hqp", "hqp/fast"), (
     "math/rank.cc", "tests/peers/bounded_rows.cc", "tests/peers/measure.cc",
     "tests/peers/tick_file.cc"))
 MATH_OF_DYNAMICS = (
-    "math/inertia.cc", "math/quaternion.cc", "math/se3.cc",
-    "math/se3_jacobian.cc", "math/so3.cc", "math/so3_jacobian.cc")
+    "math/inertia.cc", "math/pose.cc", "math/quaternion.cc", "math/se3.cc",
+    "math/se3_jacobian.cc", "math/so3.cc", "math/so3_jacobian.cc",
+    "math/spatial.cc")
 DYNAMICS = Parts(("dynamics", "dynamics/simd"), (
     *MATH_OF_DYNAMICS, "tests/peers/tree_file.cc",
     "tests/util/random_tree.cc"))

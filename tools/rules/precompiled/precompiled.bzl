@@ -1,4 +1,6 @@
-"""Headers that most files include, parsed once for all of them.
+"""Precompiled headers: GCC parses slow headers once for all files.
+
+They contain Eigen, slow headers of the standard library, and GoogleTest or pybind11.
 
 A fifth of a cold build was GCC reading Eigen and GoogleTest, file after file.
 //tools/rules:cc.bzl has them included by -include PACKAGE/NAME.h, an empty file, for
