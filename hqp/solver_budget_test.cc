@@ -576,6 +576,82 @@ TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
       << limited.modelled_seconds << " s and " << at_once.modelled_seconds;
 }
 
+// Draws ticks whose equalities and targets wander. Level 1 limits y, and level 2, which is
+// searched last, is a task.
+class WanderingTicks {
+ public:
+  static constexpr int kVariables = 20, kTask = 2;
+  explicit WanderingTicks(double speed) : speed_(speed) {}
+  Hierarchy Draw() {
+    b_ += speed_ * draw_(4, 1);
+    t_ += 3 * speed_ * draw_(6, 1);
+    Hierarchy hierarchy(kVariables, capacity_);
+    AddEqualities(0, B_, b_, &hierarchy);
+    AddLimits(1, C_, 1, &hierarchy);
+    AddEqualities(kTask, T_, t_, &hierarchy);
+    hierarchy.AddEqualities(3, kVariables).B.setIdentity();
+    hierarchy.FindSpans();
+    return hierarchy;
+  }
+  Solver MakeSolver() const { return Solver(kVariables, capacity_); }
+  Solution MakeSolution() const { return Solution(kVariables, capacity_); }
+
+ private:
+  double speed_;
+  std::vector<LevelCapacity> capacity_{
+      {4, 0}, {0, 30}, {6, 0}, {kVariables, 0}};
+  DrawMatrix draw_{5};
+  RowMajorMatrix B_ = draw_(4, kVariables), C_ = draw_(30, kVariables);
+  RowMajorMatrix T_ = draw_(6, kVariables), b_ = draw_(4, 1);
+  RowMajorMatrix t_ = 3 * draw_(6, 1);
+};
+
+// A path that ends within its share of the time is not preceded by another search: limits that
+// block at its start are added on the path.
+TEST(SolverBudget, TakesNoMoreIterationsIfThePathEndsInTime) {
+  WanderingTicks ticks(0.1);
+  Solver solver = ticks.MakeSolver(), timed = ticks.MakeSolver();
+  Solution solution = ticks.MakeSolution();
+  int in_time = 0, without = 0, with = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    SCOPED_TRACE(tick);
+    const Hierarchy hierarchy = ticks.Draw();
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    without += solution.iterations;
+    timed.max_modelled_seconds = solver.modelled_seconds() / 0.75;
+    in_time += timed.Solve(hierarchy, &solution) == Status::kOptimal;
+    with += solution.iterations;
+    timed.max_modelled_seconds = 1;
+    ASSERT_EQ(timed.Solve(hierarchy, &solution), Status::kOptimal);
+  }
+  EXPECT_GT(in_time, 180);
+  EXPECT_GT(without, 600);
+  EXPECT_LT(with, 1.05 * without);
+}
+
+// A path that is cut off leaves time to meet the limits. Each path begins at an optimum and
+// would take longer than the limit of time.
+TEST(SolverBudget, LeavesTimeForTheLimitsAfterThePath) {
+  WanderingTicks ticks(0.3);
+  Solver solver = ticks.MakeSolver(), timed = ticks.MakeSolver();
+  Solution solution = ticks.MakeSolution();
+  int cut_off = 0, lost = 0;
+  for (int tick = 0; tick < 400; ++tick) {
+    SCOPED_TRACE(tick);
+    const Hierarchy hierarchy = ticks.Draw();
+    ASSERT_EQ(solver.Solve(hierarchy, &solution), Status::kOptimal);
+    timed.max_modelled_seconds = 0.8 * solver.modelled_seconds();
+    if (timed.Solve(hierarchy, &solution) != Status::kOptimal) {
+      ++cut_off;
+      lost += solution.failed_level < WanderingTicks::kTask;
+    }
+    timed.max_modelled_seconds = 1;
+    ASSERT_EQ(timed.Solve(hierarchy, &solution), Status::kOptimal);
+  }
+  EXPECT_GT(cut_off, 100);
+  EXPECT_LT(lost, cut_off / 2);
+}
+
 // A time that is too short for a step of all levels in one solve must not end the
 // search: the last leading level gets a step sooner or later.
 TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {

@@ -17,6 +17,11 @@ namespace {
 // sequences (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongPath = 25;
 
+// The share of the time for a path whose start does not meet the levels before the last. Of
+// 0.7, 0.75, 0.8, 0.85, 0.9 and 0.95, this is the largest with which no recorded robot that
+// stays up loses limits or feet (docs/notebook/2026-12-01-path-first.md).
+constexpr double kShareOfPath = 0.8;
+
 // How often a search removes many rows together, see RemoveConstraints(). With 4 and 10
 // the worst ticks are the same (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxTogether = 4;
@@ -70,39 +75,49 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
 }
 
 // Starts a search on all levels, and follows the path from the last optimum. With a
-// limit of time, all leading levels but the last are met before: an answer that is cut
-// off loses momentum before limits and feet.
+// limit of time, all leading levels but the last are met before, or else in the time that
+// the path leaves: an answer that is cut off loses momentum before limits and feet.
 ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
     const Hierarchy& hierarchy, int limit, Budget* budget,
     WorkingSetProblem* problem, std::vector<std::vector<Side>>* side) {
-  bool is_met = true;
+  using Meeting = ParametricSearch::Meeting;
+  Meeting meeting = Meeting::kMet;
   path_.Begin(y_);
   if (budget->has_time_limit()) {
-    is_met = path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem, side,
-                                        &y_);
+    meeting = path_.MeetLevelsBeforeLast(hierarchy, limit, budget, problem,
+                                         side, &y_);
   } else {
     problem->Start(hierarchy, *side, path_.mutable_y());
     y_ = path_.y();
   }
-  if (is_met) {
+  const bool is_followed = meeting != Meeting::kCutOff;
+  if (is_followed) {
     problem->SolveDiagonal();
     set_optimum_ = problem->y();
     // With a limit of time, a long path goes on in the next solve.
     const int longest = budget->has_time_limit()
                             ? limit
                             : std::min(limit, budget->iterations() + kLongPath);
+    if (meeting == Meeting::kPostponed) budget->set_share(kShareOfPath);
     if (path_.Follow(hierarchy, longest, budget, problem, side)) {
       y_ = path_.y();
       goes_on_ = false;
       path_.Remember(*problem, *side);
       return PathEnd::kOptimum;
     }
+    budget->set_share(1);
     if (budget->is_spent()) path_.Pause(*side);
   }
   // A path need not lower the cost at each step.
   if (IsBetter(hierarchy, path_.y(), y_)) y_ = path_.y();
-  if (is_met && IsBetter(hierarchy, set_optimum_, y_)) y_ = set_optimum_;
+  if (is_followed && IsBetter(hierarchy, set_optimum_, y_)) y_ = set_optimum_;
   if (budget->is_spent()) return PathEnd::kBudget;
+  if (budget->is_share_spent()) {
+    (void)path_.PauseAtLevelsBeforeLast(hierarchy, limit, budget, problem, side,
+                                        &y_);
+    budget->Spend();
+    return PathEnd::kBudget;
+  }
   path_.Resume(side);
   path_.Forget();
   goes_on_ = true;

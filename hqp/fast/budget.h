@@ -73,19 +73,26 @@ class Budget {
         start_(now_ != nullptr ? (*now_)() : 0) {}
 
   /// Uses one iteration, which factors or updates the levels, after this work in this
-  /// solve. Returns false if the budget is spent, or if `limit` iterations have been
-  /// used.
+  /// solve. Returns false if the budget is spent, if `limit` iterations have been used, or if
+  /// the time exceeds the share that was set.
   bool Take(int limit, const Work& work) {
     if (iterations_ >= limit) return false;
     is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (iterations_ >= kAlways && IsLate(work));
-    if (is_spent_) return false;
+                (iterations_ >= kAlways && IsLate(work, 1));
+    is_share_spent_ = iterations_ >= kAlways && IsLate(work, share_);
+    if (is_spent_ || is_share_spent_) return false;
     ++iterations_;
     return true;
   }
   bool Take(const Work& work) {
     return Take(std::numeric_limits<int>::max(), work);
   }
+
+  /// Sets the share of the limits of time, up to 1, after which Take() returns false without
+  /// ending the budget.
+  void set_share(double share) { share_ = share; }
+  /// Returns whether the last Take() has failed because of the share, or for lack of time.
+  bool is_share_spent() const { return is_share_spent_; }
 
   /// Returns how many multiply-adds the iteration of the last Take() may use, after this
   /// work, so that it does not end later than kMost times the limit of time. For the first
@@ -109,7 +116,7 @@ class Budget {
   void Spend() { is_spent_ = true; }
 
   /// Returns whether the budget has ended, by Spend() or because Take() has failed for
-  /// another reason than `limit`.
+  /// another reason than `limit` or the share.
   bool is_spent() const { return is_spent_; }
   /// Returns whether the time is limited, modelled or measured.
   bool has_time_limit() const {
@@ -119,16 +126,17 @@ class Budget {
   int max_iterations() const { return limits_.iterations; }
 
  private:
-  bool IsLate(const Work& work) const {
+  bool IsLate(const Work& work, double share) const {
     return (limits_.modelled_seconds > 0 &&
-            ModelledSeconds(work) > limits_.modelled_seconds) ||
-           (now_ != nullptr && Elapsed() > limits_.seconds);
+            ModelledSeconds(work) > share * limits_.modelled_seconds) ||
+           (now_ != nullptr && Elapsed() > share * limits_.seconds);
   }
   double Elapsed() const { return (*now_)() - start_; }
 
   BudgetLimits limits_;
+  double share_ = 1;
   int iterations_ = 0;
-  bool is_spent_ = false;
+  bool is_spent_ = false, is_share_spent_ = false;
   const std::function<double()>* now_;
   double start_;
 };

@@ -81,6 +81,31 @@ TEST(Budget, StopsAtItsModelledTime) {
   EXPECT_TRUE(endless.Take({1000 * kWork, 7}));
 }
 
+// A share of the time ends one search; the rest of the time remains. A share does not hold for
+// the first two iterations, nor without a limit of time.
+TEST(Budget, StopsAtItsShareOfTheTime) {
+  constexpr std::int64_t kWork = 1000000;
+  double time = 100;
+  const std::function<double()> now = [&] { return time; };
+  Budget modelled({9, ModelledSeconds({kWork, 7})}, &no_clock);
+  Budget timed({9, 0, 4}, &now), endless({9}, &now);
+  for (Budget* budget : {&modelled, &timed, &endless}) {
+    const Work work = budget == &modelled ? Work{kWork * 3 / 4, 7} : Work{};
+    time = 100;
+    budget->set_share(0.5);
+    EXPECT_TRUE(budget->Take(work));
+    EXPECT_TRUE(budget->Take(work));
+    EXPECT_FALSE(budget->is_share_spent());
+    time = 103;
+    EXPECT_EQ(budget->Take(work), budget == &endless);
+    EXPECT_EQ(budget->is_share_spent(), budget != &endless);
+    EXPECT_FALSE(budget->is_spent());
+    budget->set_share(1);
+    EXPECT_TRUE(budget->Take(work));
+    EXPECT_FALSE(budget->is_share_spent());
+  }
+}
+
 // A limit of iterations does not limit the time. Neither do seconds without a
 // clock.
 TEST(Budget, KnowsWhetherItsTimeIsLimited) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests of ParametricSearch::MeetLevelsBeforeLast().
+// Tests of ParametricSearch::MeetLevelsBeforeLast() and PauseAtLevelsBeforeLast().
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -36,10 +36,12 @@ std::vector<double> ToVector(const Eigen::VectorXd& y) {
 // numbers are drawn.
 class FirstLevels {
  public:
-  explicit FirstLevels(int seed) : numbers_(seed) {
+  explicit FirstLevels(int seed, int limits = 16, double bound = 2)
+      : bound_(bound), numbers_(seed) {
     for (RowMajorMatrix* matrix : {&B_, &C_, &T_}) {
-      *matrix = RowMajorMatrix::NullaryExpr(matrix == &C_ ? 16 : 3, kVariables,
-                                            [&] { return normal_(numbers_); });
+      *matrix =
+          RowMajorMatrix::NullaryExpr(matrix == &C_ ? limits : 3, kVariables,
+                                      [&] { return normal_(numbers_); });
     }
   }
   // The first `open` limits are infinite.
@@ -48,10 +50,11 @@ class FirstLevels {
     EqualityBlock first = hierarchy.AddEqualities(0, 3);
     first.B = B_;
     for (double& b : first.b) b = normal_(numbers_);
-    InequalityBlock limits = hierarchy.AddInequalities(1, 16);
+    InequalityBlock limits =
+        hierarchy.AddInequalities(1, static_cast<int>(C_.rows()));
     limits.C = C_;
-    limits.lower.setConstant(-2);
-    limits.upper.setConstant(2);
+    limits.lower.setConstant(-bound_);
+    limits.upper.setConstant(bound_);
     limits.lower.head(open).setConstant(-kInfinity);
     limits.upper.head(open).setConstant(kInfinity);
     EqualityBlock task = hierarchy.AddEqualities(2, 3);
@@ -60,15 +63,16 @@ class FirstLevels {
     hierarchy.AddEqualities(3, kVariables).B.setIdentity();
     return hierarchy;
   }
-  static std::vector<LevelCapacity> capacity() {
-    return {{3, 0}, {0, 16}, {3, 0}, {kVariables, 0}};
+  std::vector<LevelCapacity> capacity() const {
+    return {{3, 0}, {0, static_cast<int>(C_.rows())}, {3, 0}, {kVariables, 0}};
   }
   static constexpr int kVariables = 12;
 
  private:
+  double bound_;
   std::mt19937 numbers_;
   std::normal_distribution<double> normal_;
-  RowMajorMatrix B_{3, kVariables}, C_{16, kVariables}, T_{3, kVariables};
+  RowMajorMatrix B_, C_, T_;
 };
 
 // Violation of the equalities and limits, the largest one.
@@ -103,20 +107,21 @@ Eigen::VectorXd FindNearest(const Hierarchy& hierarchy,
   return solution.y;
 }
 
-// The point is the closest one, unless the optimum of the working set violates no
-// bound: then no path is needed, and it may be farther away.
-TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
+// The point is the first optimum of a working set that violates no bound. Mostly this is the
+// closest one.
+TEST(NearestOptimum, MeetsLevelsAtANearPoint) {
   int closest = 0, followed = 0;
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     FirstLevels draw(seed);
-    PathBetween search(FirstLevels::kVariables, FirstLevels::capacity());
+    PathBetween search(FirstLevels::kVariables, draw.capacity());
     search.Begin(draw.Draw());
     const Hierarchy hierarchy = draw.Draw();
     search.Start(hierarchy);
     const Eigen::VectorXd from = search.y();
     const Sides side = search.side();
     ASSERT_TRUE(search.MeetLevelsBeforeLast(hierarchy));
+    search.path().Resume(&search.side());
     EXPECT_EQ(search.side(), side);
     // The answer stays as it was if that is better on the last level.
     EXPECT_FALSE(
@@ -129,18 +134,19 @@ TEST(NearestOptimum, MeetsLevelsAtTheClosestPoint) {
     closest += distance <= least + tolerance;
     // The path itself goes on, for the same working set. Only with a limit of time does a
     // solver call MeetLevelsBeforeLast().
+    search.Start(hierarchy);
     if (!search.FollowFromHere(hierarchy, PathBetween::kEnough, 1)) continue;
     ++followed;
     EXPECT_LE(Violation(hierarchy, search.y()), tolerance);
   }
-  EXPECT_GT(closest, 80);
+  EXPECT_GT(closest, 60);
   // Rounding differs between builds: 79 with -O3, more than 80 without.
   EXPECT_GT(followed, 70);
 }
 
 // The sum of six bounded variables must become 7, and y is to stay close to zero. One
 // iteration adds the sum, with y_i = 7/6; one the three bounds that block next; and one the
-// fourth. One finds that y violates nothing, and one solves the levels again.
+// fourth. One finds that y violates nothing.
 TEST(NearestOptimum, AddsTheBoundsThatBlockNext) {
   constexpr int kSum = 6;
   const std::vector<LevelCapacity> capacity{{0, 7}, {6, 0}};
@@ -160,7 +166,7 @@ TEST(NearestOptimum, AddsTheBoundsThatBlockNext) {
   };
   PathBetween search(6, capacity);
   search.Begin(at(0));
-  ASSERT_TRUE(search.MeetLevelsBeforeLast(at(7), 5));
+  ASSERT_TRUE(search.MeetLevelsBeforeLast(at(7), 4));
   const Eigen::Matrix<double, 6, 1> y{1, 1.02, 1.04, 1.3, 1.32, 1.32};
   EXPECT_NEAR((search.y() - y).norm(), 0, kSameY);
 }
@@ -186,19 +192,17 @@ TEST(NearestOptimum, RemovesRowsWithALargeNegativeMultiplierFirst) {
     return hierarchy;
   };
   // The bound of y_1 has 0.01 or 0.36 of the multiplier of that of y_0, which is removed in
-  // the first iteration. One more solves the levels again.
+  // the first iteration. In the second, y violates nothing.
   for (const double shift : {0.1, 4.0}) {
     SCOPED_TRACE(shift);
     const bool is_large = shift > 1;
-    PathBetween search(4, capacity), other(4, capacity);
+    PathBetween search(4, capacity);
     search.Begin(at(1, 1, 10));
-    other.Begin(at(1, 1, 10));
     ASSERT_NEAR(search.y()[0] + search.y()[1], 2, kSameY);
     const Hierarchy end = at(1 - 22, 1 - 2 * shift, -0.5);
-    EXPECT_EQ(other.MeetLevelsBeforeLast(end, 3), is_large);
-    ASSERT_TRUE(search.MeetLevelsBeforeLast(end, 4));
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(end, 2));
     EXPECT_NEAR(search.y()[0], 1 - 11, 20 * kSameY);
-    EXPECT_NEAR(search.y()[1], 1 - shift, 20 * kSameY);
+    EXPECT_NEAR(search.y()[1], is_large ? 1 - shift : 1, 20 * kSameY);
   }
 }
 
@@ -237,7 +241,8 @@ TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
       const Hierarchy before = at(4, -1, -10);
       ASSERT_TRUE(search.MeetLevelsBeforeLast(before));
       ASSERT_NEAR(search.y()[0], 0, kSameY);
-      ASSERT_FALSE(search.FollowFromHere(before, 0));
+      search.path().Resume(&search.side());
+      ASSERT_FALSE(search.Follow(before, 0));
       search.path().Pause(search.side());
     }
     ASSERT_TRUE(search.MeetLevelsBeforeLast(at(4, -1, 0)));
@@ -246,13 +251,27 @@ TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
   }
 }
 
+// Limits that cannot all be met are added and removed many times. But groups of rows are not
+// removed again and again: without this rule, 37 of 500 searches take more than 80 iterations.
+TEST(NearestOptimum, SeldomCyclesWhereLimitsCannotBeMet) {
+  int endless = 0;
+  for (int seed = 0; seed < 500; ++seed) {
+    FirstLevels draw(seed, /*limits=*/24, /*bound=*/0.2);
+    PathBetween search(FirstLevels::kVariables, draw.capacity());
+    search.Begin(draw.Draw());
+    endless += !search.MeetLevelsBeforeLast(draw.Draw(), 80);
+  }
+  // 6 on the machine of this test; rounding decides about some of them.
+  EXPECT_LT(endless, 15);
+}
+
 // Bounds that become infinite while the budget ends do not stay in the working set.
 TEST(NearestOptimum, MeetsLevelsAfterBoundsBecomeInfinite) {
   int spent = 0;
   for (int seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
     FirstLevels draw(seed);
-    PathBetween search(FirstLevels::kVariables, FirstLevels::capacity());
+    PathBetween search(FirstLevels::kVariables, draw.capacity());
     search.Begin(draw.Draw());
     Hierarchy hierarchy = draw.Draw();
     if (search.MeetLevelsBeforeLast(hierarchy, 2)) continue;
@@ -275,18 +294,23 @@ TEST(NearestOptimum, AdvancesThePathAfterMeetingLevels) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     FirstLevels draw(seed);
-    PathBetween search(FirstLevels::kVariables, FirstLevels::capacity());
+    PathBetween search(FirstLevels::kVariables, draw.capacity());
     search.Begin(draw.Draw());
     const Hierarchy hierarchy = draw.Draw();
     const Sides side = search.side();
-    if (search.MeetLevelsBeforeLast(hierarchy, 1)) continue;
+    const auto is_cut_off = [&] {
+      const bool is_met = search.MeetLevelsBeforeLast(hierarchy, 1);
+      EXPECT_TRUE(is_met || search.path().is_paused());
+      search.path().Resume(&search.side());
+      EXPECT_EQ(search.side(), side);
+      return !is_met;
+    };
+    if (!is_cut_off() || !is_cut_off()) continue;
     ++spent;
-    EXPECT_TRUE(search.path().is_paused());
-    search.path().Resume(&search.side());
-    EXPECT_EQ(search.side(), side);
-    EXPECT_TRUE(search.MeetLevelsBeforeLast(hierarchy, 1));
+    EXPECT_FALSE(is_cut_off());
     // Once the path has advanced, the levels are met again first.
     if (!search.Follow(hierarchy, 0)) {
+      search.path().Pause(search.side());
       spent_again += !search.MeetLevelsBeforeLast(hierarchy, 0);
     }
   }
@@ -301,8 +325,8 @@ TEST(NearestOptimum, BeginsWithTheLastPointIfThePathIsContinued) {
   for (int seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
     FirstLevels draw(seed);
-    PathBetween search(FirstLevels::kVariables, FirstLevels::capacity());
-    PathBetween other(FirstLevels::kVariables, FirstLevels::capacity());
+    PathBetween search(FirstLevels::kVariables, draw.capacity());
+    PathBetween other(FirstLevels::kVariables, draw.capacity());
     const Hierarchy first = draw.Draw(), hierarchy = draw.Draw();
     search.Begin(first);
     other.Begin(first);
@@ -310,7 +334,8 @@ TEST(NearestOptimum, BeginsWithTheLastPointIfThePathIsContinued) {
     ++longer;
     ASSERT_TRUE(search.MeetLevelsBeforeLast(hierarchy));
     // The path is followed for one iteration, and paused.
-    if (search.FollowFromHere(hierarchy, 1)) continue;
+    search.path().Resume(&search.side());
+    if (search.Follow(hierarchy, 1)) continue;
     ++paused;
     search.path().Pause(search.side());
     if (!search.MeetLevelsBeforeLast(hierarchy, 2)) continue;

@@ -81,22 +81,38 @@ class ParametricSearch {
                             Budget* budget, WorkingSetProblem* problem,
                             Sides* side);
 
+  /// How MeetLevelsBeforeLast() has ended.
+  enum class Meeting { kMet, kPostponed, kCutOff };
+
   /// Solves the leading levels of `problem` for the working set `side`, as
   /// WorkingSetProblem::Start() does with y(), and stores y() in `answer`: it remains if the
   /// path is cut off. Then moves y() to a point that meets all leading levels but the last,
-  /// and stores it in `answer` if it is better. This point is the optimum of these levels and of `side` that is closest to
-  /// y(), or, if that violates a bound, an optimum near y() that is found from `side`. A path
-  /// that is continued begins with the working set of the last call, because its `side` is
-  /// far from y(). The multipliers of `side` are not checked.
-  /// Returns true if the point has been reached. Returns true without a move if there are
-  /// fewer than two leading levels, or if the last call spent its budget. Returns false if
-  /// the budget, or `limit` iterations of it, did not suffice. Then the path is paused,
-  /// `side` is the working set of these levels, and `answer` meets the first levels only.
-  [[nodiscard]] bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit,
-                                          Budget* budget,
-                                          WorkingSetProblem* problem,
-                                          Sides* side,
-                                          std::vector<double>* answer);
+  /// and stores it in `answer` if it is better.
+  ///
+  /// This point is the optimum of these levels and of `side` that is closest to y(). If it
+  /// violates a bound, this returns kPostponed without a move: most paths end soon. But a
+  /// path that is continued then moves to an optimum near y(), found from the working set of
+  /// the last such search, because its `side` is far from y(). The multipliers of `side` are
+  /// not checked.
+  ///
+  /// Returns kMet if the point has been reached, and, without a move, if there are fewer than
+  /// two leading levels, or if such a search took all of the last solve's budget. Returns
+  /// kCutOff if the budget, or `limit` iterations of it, did not suffice. Then the path is
+  /// paused, `side` is the working set of these levels, and `answer` meets the first levels
+  /// only.
+  [[nodiscard]] Meeting MeetLevelsBeforeLast(const Hierarchy& hierarchy,
+                                             int limit, Budget* budget,
+                                             WorkingSetProblem* problem,
+                                             Sides* side,
+                                             std::vector<double>* answer);
+
+  /// Pauses the path after Follow() and moves y() to an optimum of all leading levels but the
+  /// last near it, found from `side`. Stores y() in `answer` if it is better. Then `side` is the
+  /// working set of these levels. Returns whether the point has been reached: if not, the
+  /// budget, or `limit` iterations of it, did not suffice, and `answer` stays.
+  bool PauseAtLevelsBeforeLast(const Hierarchy& hierarchy, int limit,
+                               Budget* budget, WorkingSetProblem* problem,
+                               Sides* side, std::vector<double>* answer);
 
  private:
   struct Blocking {
@@ -149,7 +165,7 @@ class ParametricSearch {
 
   void TakeWorkingSet(const Sides& side);
   bool FindNearest(const Hierarchy& hierarchy, int limit, Budget* budget,
-                   bool is_closest, WorkingSetProblem* problem, Sides* side);
+                   WorkingSetProblem* problem, Sides* side);
   bool RemoveNegative(const WorkingSetProblem& problem, int size,
                       const Change& last, Sides* side);
   bool RemoveVanished(const WorkingSetProblem& problem, int size, Change* last,
@@ -199,7 +215,7 @@ class ParametricSearch {
   /// with the multiplier 0.
   RowNumbers start_;
   Sides side_;  ///< Working set of start_.
-  /// The working set that MeetLevelsBeforeLast() has found last.
+  /// The working set of the last search for an optimum of the levels before the last.
   Sides near_side_;
   bool is_near_known_ = false;
   /// The next MeetLevelsBeforeLast() makes no move. Each search for the nearest point

@@ -60,8 +60,13 @@ bool PathBetween::MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit) {
   problem_.Plan(hierarchy, hierarchy.num_levels());
   answer_ = path_.y();
   path_.Begin(answer_);
-  const bool is_met = path_.MeetLevelsBeforeLast(hierarchy, limit, &budget,
-                                                 &problem_, &side_, &answer_);
+  ParametricSearch::Meeting meeting = path_.MeetLevelsBeforeLast(
+      hierarchy, limit, &budget, &problem_, &side_, &answer_);
+  bool is_met = meeting == ParametricSearch::Meeting::kMet;
+  if (meeting == ParametricSearch::Meeting::kPostponed) {
+    is_met = path_.PauseAtLevelsBeforeLast(hierarchy, limit, &budget, &problem_,
+                                           &side_, &answer_);
+  }
   EXPECT_EQ(count.allocations(), 0);
   return is_met;
 }

@@ -33,7 +33,9 @@ class PathBetween {
   bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough,
                       double modelled_seconds = 0);
 
-  /// ParametricSearch::MeetLevelsBeforeLast() after ParametricSearch::Begin() with y().
+  /// ParametricSearch::MeetLevelsBeforeLast() after ParametricSearch::Begin() with y(). If it
+  /// is postponed, ParametricSearch::PauseAtLevelsBeforeLast() follows at once. Returns whether
+  /// the levels are met.
   bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit = kEnough);
 
   Eigen::VectorXd y() const {
