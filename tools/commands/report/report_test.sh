@@ -1,0 +1,40 @@
+#!/bin/bash
+# Usage: report_test.sh REPORT
+# Tests that report keeps the files of a run, and its messages about bad input.
+set -euo pipefail
+report=$PWD/$1
+cd "$TEST_TMPDIR"
+
+fail() {
+  echo "report_test.sh: $*" >&2
+  exit 1
+}
+
+# Usage: expect CODE MESSAGE ARGUMENT...: report must exit with CODE and print only
+# the line MESSAGE on stderr; nothing if MESSAGE is empty.
+expect() {
+  local wanted=$1 message=$2 code=0
+  shift 2
+  "$report" "$@" > out 2> err || code=$?
+  [ "$code" = "$wanted" ] || fail "$*: exit code is $code, must be $wanted: $(cat err)"
+  [ "$(cat err)" = "$message" ] || fail "$* prints: $(cat err)"
+}
+
+mkdir run
+printf 'time[s],com.x[m]\n0,0\n0.001,0\n' > run/log.csv
+echo '{"recovered": true, "control_dt": 0.001}' > run/summary.json
+echo '{}' > run/robot.json
+expect 0 '' run
+[ -s run/report.html ] || fail "there is no report.html"
+
+# The page must not replace a file of the run.
+cp -r run kept
+ln -s run link
+for name in run/log.csv run/./summary.json link/robot.json; do
+  expect 2 "report: $name: is $(basename "$name") of a run and would be replaced, $(
+    )choose another name" run --out "$name"
+  expect 2 "report: $name: is $(basename "$name") of a run and would be replaced, $(
+    )choose another name" kept run --out "$name"
+done
+diff -r run kept || fail "a file of the run was replaced"
+expect 0 '' run --out page.html
