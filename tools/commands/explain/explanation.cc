@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "poise/sim/judge.h"
 #include "poise/sim/log/open_log.h"
 #include "poise/sim/log/run_summary.h"
 #include "poise/tools/commands/explain/foot_story.h"
@@ -150,6 +151,13 @@ std::string Ending(const json& summary) {
   if (summary["recovered"] == true) return "The robot recovered.";
   const json fell_at = summary.value("fell_at", json());
   if (!fell_at.is_number()) {
+    const json after = summary.value("time_after_push", json());
+    if (after.is_number() && after < Judge::kEnd - kRounding) {
+      return Format("The run ends %.3g s", std::abs(after.get<double>())) +
+             (after < 0 ? " before" : " after") +
+             " the end of the push: too early to tell whether the robot "
+             "recovers.";
+    }
     return "The robot did not fall, but did not return to its reference.";
   }
   const json by = summary.value("fell_by", json());

@@ -173,6 +173,20 @@ TEST(Explanation, GivesNoOutcomeForInterruptedRun) {
             "The robot fell at 1.250 s.");
 }
 
+TEST(Explanation, SaysThatTheRunEndsTooSoonAfterThePush) {
+  EXPECT_EQ(Explain(MakeRun("soon", kPushed,
+                            R"({"recovered": false, "fell_at": null,
+                                "time_after_push": -0.05})"))["sentences"]
+                .back(),
+            "The run ends 0.05 s before the end of the push: too early to "
+            "tell whether the robot recovers.");
+  EXPECT_EQ(Explain(MakeRun("late", kPushed,
+                            R"({"recovered": false, "fell_at": null,
+                                "time_after_push": 0.5})"))["sentences"]
+                .back(),
+            "The robot did not fall, but did not return to its reference.");
+}
+
 TEST(Explanation, IgnoresSummaryOfAnotherLog) {
   const nlohmann::json said =
       Explain(MakeRun("other_log", std::string(kPushed) + "0.92,o",
