@@ -53,7 +53,10 @@ int Main(int argc, char** argv) {
   std::filesystem::path html = UserPath("compare.html");
   if (folders.size() == 1) html = folders.front() / "report.html";
   if (!out.empty()) html = UserPath(out);
-  WriteReport(folders, html, PackageFolders(packages));
+  for (const std::string& note :
+       WriteReport(folders, html, PackageFolders(packages))) {
+    std::cerr << note << '\n';
+  }
   std::cout << html.string() << '\n';
   return 0;
 }

@@ -262,8 +262,9 @@ std::vector<std::string> TellShortStory(const RunStory& story,
                                  slip ? "" : causes.front().rows.front().first,
                                  push != nullptr, summary));
   }
-  if (after.size() > kStoryLength) after.resize(kStoryLength);
-  const size_t room = kStoryLength - after.size();
+  const size_t length = kStoryLength - (summary.empty() ? 1 : 0);
+  if (after.size() > length) after.resize(length);
+  const size_t room = length - after.size();
   if (before.size() > room) before.resize(room);
   if (!fell_at) {
     for (const std::string& event :

@@ -16,7 +16,9 @@ constexpr size_t kStoryLength = 6;
 /// lost because of it, and the end of the run. After a fall, adds what would
 /// have helped. Returns at most kStoryLength sentences.
 ///
-/// @param summary  summary of the run; an empty object if there is none.
+/// @param summary  summary of the run; an empty object if there is none. Then
+///                 the story has a sentence less, and the caller says first that
+///                 there is no summary.
 /// @param notes    sentences that the result must contain.
 /// @param ending   sentence about the end of the run.
 std::vector<std::string> TellShortStory(const RunStory& story,
