@@ -91,10 +91,6 @@ void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
 }  // namespace
 
 json ReadRun(const path& run_dir) {
-  if (!std::filesystem::is_directory(run_dir)) {
-    throw std::invalid_argument(run_dir.string() +
-                                ": must be the folder of a run");
-  }
   json log = ReadRunLog(FindLog(run_dir));
   json notes = TakeNotes(&log);
   RunSummary read = ReadRunSummary(run_dir);

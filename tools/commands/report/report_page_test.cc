@@ -208,7 +208,8 @@ TEST(ReportPage, NamesTheFileThatCannotBeReadOrWritten) {
   };
   const fs::path run = EmptyFolder("run_broken");
   EXPECT_EQ(error([&] { ReadRun("no/such/run"); }),
-            "no/such/run: must be the folder of a run");
+            "no/such/run: does not exist, give the folder of a run, not its "
+            "log");
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "log.csv").string() + ": cannot be opened");
   Write(run / "log.csv", "");

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Usage: report_test.sh REPORT
+# Usage: report_test.sh REPORT EXPLAIN
 # Tests that report keeps the files of a run, and its messages about bad input.
 set -euo pipefail
-report=$PWD/$1
+report=$PWD/$1 explain=$PWD/$2
 cd "$TEST_TMPDIR"
 
 fail() {
@@ -44,3 +44,14 @@ rm kept/robot.json
 expect 0 "$PWD/kept: robot.json is missing." "$PWD/kept"
 echo '{"recovered": tr' > kept/summary.json
 expect 2 'report: kept/summary.json: is not JSON, may be empty or cut short; run push again, or remove this file to read the log alone' kept
+
+# Both programs that read a run say the same if they do not get its folder.
+for program in "$report" "$explain"; do
+  for given in 'nodir: does not exist' 'run/log.csv: is a file'; do
+    code=0
+    "$program" "${given%%:*}" > out 2> err || code=$?
+    [ "$code" = 2 ] || fail "$program ${given%%:*}: exit code is $code, must be 2"
+    [ "$(cat err)" = "$(basename "$program"): $given, give the folder of a run, not its log" ] ||
+      fail "$program prints: $(cat err)"
+  done
+done
