@@ -185,9 +185,9 @@ std::string StepLines(const Robot& robot, const RunResult& result) {
       lines += Line("step", "%s at %.3f s, not landed", foot.c_str(), step.at);
       continue;
     }
-    lines +=
-        Line("step", "%s at %.3f s to (%.2f, %.2f) m in %.2f s", foot.c_str(),
-             step.at, step.landed.x(), step.landed.y(), step.swing_time);
+    lines += Line("step", "%s at %.3f s, landed at (%.2f, %.2f) m after %.2f s",
+                  foot.c_str(), step.at, step.landed.x(), step.landed.y(),
+                  step.swing_time);
   }
   if (count > kMostLines)
     lines += Line("step", "and %d more", count - kMostLines);

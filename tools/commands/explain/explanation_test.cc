@@ -242,6 +242,21 @@ TEST(Explanation, ReportsFootThatRollsOrSlides) {
             "0.400 s: the left foot has slid by more than 5 mm.");
 }
 
+// The log has the planned place of a step, summary.json the place of the landing.
+TEST(Explanation, SaysThatThePlaceOfAStepIsPlanned) {
+  const nlohmann::json said = Explain(
+      MakeRun("stepped",
+              "time[s],status,active,left_foot.phase,plan.x[m],plan.y[m],"
+              "plan.beyond[m]\n"
+              "0.1,ok,,down,,,\n0.2,ok,,stepping,0.18,0.47,0.035\n"
+              "0.3,ok,,stepping,0.18,0.47,0.035\n0.4,ok,,down,,,\n",
+              R"({"recovered": true})"));
+  EXPECT_EQ(said["story"][0],
+            "0.200 s: the robot steps with the left foot, planned to (0.18, "
+            "0.47) m, in 0.20 s, as the capture point is 4 cm beyond the "
+            "edge.");
+}
+
 TEST(Explanation, PrintsRowsWithTheSamePhraseOnce) {
   const nlohmann::json said = Explain(
       MakeRun("friction",
