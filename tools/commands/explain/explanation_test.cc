@@ -511,6 +511,43 @@ TEST(Explanation, ReportsPushesAndTouchingLinks) {
                                        "from": 1.002, "to": 1.003}])"));
 }
 
+TEST(Explanation, NamesEachPushInTheStory) {
+  const auto story = [](int pushes) {
+    std::string log =
+        "time[s],push.fx[N],push.fy[N],push.fz[N],status,active\n";
+    for (int i = 0; i < pushes; ++i) {
+      log += "0." + std::to_string(i) + "00,10,0,0,ok,\n0." +
+             std::to_string(i) + "01,0,0,0,ok,\n";
+    }
+    return Explain(MakeRun("pushes" + std::to_string(pushes), log,
+                           R"({"recovered": true})"))["story"][0];
+  };
+  EXPECT_EQ(story(1),
+            "0.000 s: the robot is pushed forward with 10 N for 1 ms.");
+  EXPECT_EQ(story(2),
+            "0.000 s: the robot is pushed forward with 10 N for 1 ms and at "
+            "0.100 s forward with 10 N for 1 ms.");
+  EXPECT_EQ(story(6),
+            "0.000 s: the robot is pushed forward with 10 N for 1 ms, at "
+            "0.100 s forward with 10 N for 1 ms, at 0.200 s forward with 10 N "
+            "for 1 ms, at 0.300 s forward with 10 N for 1 ms and 2 more "
+            "times.");
+}
+
+TEST(Explanation, TellsTheStoryInOrderOfTime) {
+  const nlohmann::json said = Explain(MakeRun(
+      "ordered",
+      "time[s],status,active,lost,left_foot.contact,left_foot.tilt[rad],"
+      "left_foot.slide[m]\n"
+      "0.1,ok,,,1,0.03,0\n"
+      "0.2,ok,left_foot.cop.x_max=1,momentum.lx=10,1,0,0\n",
+      Described(R"({"recovered": true})")));
+  const std::vector<std::string> story = said["story"];
+  ASSERT_EQ(story.size(), 4u);
+  EXPECT_EQ(story[0].substr(0, 28), "0.100 s: the left foot rolls");
+  EXPECT_EQ(story[1].substr(0, 28), "0.200 s: the most costly lim");
+}
+
 // The knees reach their limits as a consequence of the fall, so they are not
 // named.
 TEST(Explanation, SummarizesAFallInOrderOfCause) {
@@ -566,7 +603,7 @@ TEST(Explanation, NamesSlipAsCauseOfAFall) {
                             "fell_by": "a foot slid over 30 mm"})")));
   const std::vector<std::string> story = said["story"];
   ASSERT_EQ(story.size(), 4u);
-  EXPECT_EQ(story[0],
+  EXPECT_EQ(story[1],
             "0.200 s: the left foot slips on the ground: it has slid by more "
             "than 5 mm.");
   EXPECT_EQ(story[3],

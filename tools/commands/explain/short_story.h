@@ -12,7 +12,7 @@ namespace poise {
 /// Maximum number of sentences of a story.
 constexpr size_t kStoryLength = 6;
 
-/// Summarizes a run in order of cause: the push, the first cause, the momentum
+/// Summarizes a run in order of time: the pushes, the first cause, the momentum
 /// lost because of it, and the end of the run. After a fall, adds what would
 /// have helped. Returns at most kStoryLength sentences.
 ///
