@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -104,6 +105,18 @@ int FindTorso(const Robot& robot) {
     }
   }
   return torso;
+}
+
+double TimeAfterPushes(const std::vector<Push>& pushes, double until) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Push& push : pushes) {
+    const bool is_zero = push.force.isZero(0) && push.moment.isZero(0);
+    if (is_zero || !(push.start < until)) continue;
+    const bool is_instant = push.profile == PushProfile::kImpulse;
+    const double end = push.start + (is_instant ? 0 : push.duration);
+    shortest = std::min(shortest, until - end);
+  }
+  return shortest;
 }
 
 PushOnRobot::PushOnRobot(const Robot& robot, const Push& push)

@@ -154,5 +154,21 @@ TEST(Push, RejectsInvalidPushes) {
   EXPECT_EQ(MessageFor(push), "force of a push is nan, must be finite");
 }
 
+TEST(Push, KnowsTheTimeAfterTheLastPush) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(TimeAfterPushes({}, 5), kInfinity);
+  Push push;                                         // From 1 s to 1.15 s.
+  EXPECT_EQ(TimeAfterPushes({push}, 5), kInfinity);  // Without a force.
+  push.moment.z() = 1;
+  EXPECT_NEAR(TimeAfterPushes({push}, 5), 3.85, 1e-12);
+  EXPECT_NEAR(TimeAfterPushes({push}, 1.1), -0.05, 1e-12);
+  EXPECT_EQ(TimeAfterPushes({push}, 1), kInfinity);
+  Push later = push;
+  later.start = 2;
+  EXPECT_NEAR(TimeAfterPushes({later, push}, 5), 2.85, 1e-12);
+  later.profile = PushProfile::kImpulse;  // All of it acts at once.
+  EXPECT_NEAR(TimeAfterPushes({push, later}, 5), 3, 1e-12);
+}
+
 }  // namespace
 }  // namespace poise

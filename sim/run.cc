@@ -126,6 +126,14 @@ std::string FellBy(const RunResult& result) {
   return by_itself ? result.verdict.fell_by : result.blew_up;
 }
 
+std::optional<double> TooShortAfterPushes(const Scenario& scenario,
+                                          const RunResult& result) {
+  constexpr double kRounding = 1e-9;  // s.
+  const double after = TimeAfterPushes(scenario.pushes, result.duration);
+  if (after >= Judge::kEnd - kRounding) return std::nullopt;
+  return after;
+}
+
 RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
               const std::function<bool(double)>& progress, LogFormat format) {
   using Clock = std::chrono::steady_clock;
@@ -186,6 +194,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
       std::chrono::duration<double>(Clock::now() - before).count();
   result.duration = static_cast<double>(result.ticks) * scenario.control.dt;
   result.verdict = judge.Conclude();
+  if (TooShortAfterPushes(scenario, result)) result.verdict.recovered = false;
   result.steps = step_watch.steps();
   result.commanded = loop->commanded();
   const auto is_step = [](const StanceEvent& event) {

@@ -68,6 +68,12 @@ struct RunResult {
 /// Returns the cause of the fall in words; empty without a fall.
 std::string FellBy(const RunResult& result);
 
+/// Returns the time from the end of the last push to the end of the run, s, if it
+/// is shorter than Judge::kEnd. The judged interval then has time of the push or
+/// before it, so the run is too short to show that the robot recovered.
+std::optional<double> TooShortAfterPushes(const Scenario& scenario,
+                                          const RunResult& result);
+
 /// Runs a new loop to the end of its scenario, or until Judge::is_down().
 ///
 /// @param folder    folder in which a Recorder writes; empty: nothing is
@@ -75,6 +81,8 @@ std::string FellBy(const RunResult& result);
 /// @param format    of the log, see Recorder.
 /// @param progress  called a hundred times or more with the fraction done;
 ///                  stops the run by returning false. May be empty.
+///
+/// The robot has not recovered if TooShortAfterPushes().
 ///
 /// Throws std::invalid_argument as Recorder does.
 RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder = {},

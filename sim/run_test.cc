@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 #include <thread>
+#include <utility>
 
 #include "poise/sim/log/summary.h"
 #include "poise/sim/story_fixture.h"
@@ -105,6 +106,34 @@ TEST(Run, DoesNotJudgeAnInterruptedRunWithoutAFall) {
   EXPECT_EQ(ToJson(Humanoid(), scenario, result)["recovered"], false);
   EXPECT_EQ(ToTable(Humanoid(), scenario, result).find("weak_push: fell at 1"),
             0u);
+}
+
+// Until 0.5 s after a push, the robot may still fall because of the push.
+TEST(Run, DoesNotRecoverSoonAfterAPush) {
+  Scenario scenario = Ours("weak_push", 0.64);
+  Push& push = scenario.pushes[0];
+  push.force /= 50;
+  push.start = 0;  // Ends at 0.15 s.
+  const auto outcome = [&scenario] {
+    const RunResult result = poise::Run(Humanoid(), scenario);
+    EXPECT_FALSE(result.verdict.fell_at);
+    const std::string table = ToTable(Humanoid(), scenario, result);
+    return std::pair(result.verdict.recovered,
+                     table.substr(0, table.find('\n')));
+  };
+  EXPECT_EQ(outcome(),
+            std::pair(false, std::string("weak_push: not recovered: the run "
+                                         "ends 0.49 s after the end of the "
+                                         "push, recovery needs 0.5 s after "
+                                         "it")));
+  scenario.duration = 0.65;
+  EXPECT_EQ(outcome(), std::pair(true, std::string("weak_push: recovered")));
+  scenario.duration = 0.1;
+  EXPECT_EQ(outcome(),
+            std::pair(false, std::string("weak_push: not recovered: the run "
+                                         "ends 0.05 s before the end of the "
+                                         "push, recovery needs 0.5 s after "
+                                         "it")));
 }
 
 TEST(Run, RejectsUnknownTasks) {

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "poise/robot/finding.h"
@@ -17,6 +16,7 @@
 #include "poise/tools/commands/doctor/diagnosis.h"
 #include "poise/tools/commands/doctor/next_step.h"
 #include "poise/tools/commands/doctor/write_diagnosis.h"
+#include "poise/tools/commands/keep_inputs.h"
 #include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/user_path.h"
 
@@ -25,17 +25,11 @@ namespace {
 
 // Writes the profile that was found. Throws std::invalid_argument if there is
 // none, or if the file cannot be written.
-void Save(const Diagnosis& diagnosis, const Profile& profile,
-          const std::string& name) {
+void Save(const Diagnosis& diagnosis, const std::string& name) {
   const std::filesystem::path file = UserPath(name);
   if (diagnosis.profile.empty()) {
     throw std::invalid_argument(name +
                                 ": is not written, because no feet were found");
-  }
-  std::error_code error;
-  if (std::filesystem::equivalent(file, profile.file, error)) {
-    throw std::invalid_argument(
-        name + ": is the profile that was read, must be a new file");
   }
   std::ofstream stream(file);
   stream << diagnosis.profile;
@@ -64,6 +58,9 @@ int Main(int argc, char** argv) {
   app.add_flag("--masses", masses, "List the mass of each link");
   app.add_flag("--json", json, "Print one JSON document");
   ParseCommandLine(argc, argv, &app);
+  KeepInputs(saved, {{UserPath(file), "the robot's file"},
+                     {profile_file.empty() ? "" : UserPath(profile_file),
+                      "the profile that is read"}});
   try {
     const Profile profile =
         profile_file.empty() ? Profile{} : LoadProfile(UserPath(profile_file));
@@ -72,7 +69,7 @@ int Main(int argc, char** argv) {
     diagnosis.next_step = NextStep(diagnosis, {file, profile_file, packages});
     std::cout << (json ? WriteJson(diagnosis) + "\n"
                        : WriteTable(diagnosis, masses));
-    if (!saved.empty()) Save(diagnosis, profile, saved);
+    if (!saved.empty()) Save(diagnosis, saved);
     if (diagnosis.worst() != Severity::kReject) return 0;
     std::cerr << Message(file, diagnosis.findings[0]) << "\n";
   } catch (const Refusal& refusal) {  // The profile is invalid.

@@ -6,12 +6,26 @@
 #include <vector>
 
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/keep_inputs.h"
 #include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/report/report_page.h"
 #include "poise/tools/commands/user_path.h"
 
 namespace poise {
 namespace {
+
+// Returns the files of the runs, which the page must not replace.
+std::vector<InputFile> FilesOf(
+    const std::vector<std::filesystem::path>& folders) {
+  std::vector<InputFile> files;
+  for (const std::filesystem::path& folder : folders) {
+    for (const char* name :
+         {"log.csv", "log.bin", "timing.csv", "summary.json", "robot.json"}) {
+      files.push_back({folder / name, std::string(name) + " of a run"});
+    }
+  }
+  return files;
+}
 
 int Main(int argc, char** argv) {
   CLI::App app(
@@ -35,10 +49,14 @@ int Main(int argc, char** argv) {
   for (const std::string& run : runs) {
     folders.push_back(UserPath(run));
   }
+  KeepInputs(out, FilesOf(folders));
   std::filesystem::path html = UserPath("compare.html");
   if (folders.size() == 1) html = folders.front() / "report.html";
   if (!out.empty()) html = UserPath(out);
-  WriteReport(folders, html, PackageFolders(packages));
+  for (const std::string& note :
+       WriteReport(folders, html, PackageFolders(packages))) {
+    std::cerr << note << '\n';
+  }
   std::cout << html.string() << '\n';
   return 0;
 }

@@ -2,10 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <future>
 #include <iostream>
+#include <set>
 #include <string>
-#include <vector>
 
 #include "poise/robot/profile/profile.h"
 #include "poise/sim/experiment.h"
@@ -17,12 +18,15 @@
 namespace poise {
 namespace {
 
-constexpr const char* kScenarios[] = {
-    "stand",       "weak_push",    "strong_push_without_zmp",
-    "strong_push", "com_sinusoid", "posture_off",
-    "one_leg",     "slope",        "board"};
+constexpr const char* kScenarios = "sim/scenarios";
 
-// Prints a row of the table in docs/plants.md.
+// Returns the files of Poise's scenarios in alphabetical order.
+std::set<std::filesystem::path> ScenarioFiles() {
+  return {std::filesystem::directory_iterator(kScenarios),
+          std::filesystem::directory_iterator()};
+}
+
+// Prints a row of the table. An interrupted program keeps the rows before.
 void PrintRow(const std::string& name, const Verdict& bullet,
               const Verdict& mujoco) {
   std::printf("| `%s` | %s | %s |", name.c_str(), Outcome(bullet).c_str(),
@@ -34,12 +38,13 @@ void PrintRow(const std::string& name, const Verdict& bullet,
   std::printf(" %.4f / %.4f | %.2f / %.2f |\n", bullet.foot_tilt_peak,
               mujoco.foot_tilt_peak, 1e3 * bullet.foot_slide_peak,
               1e3 * mujoco.foot_slide_peak);
+  std::fflush(stdout);
 }
 
 int Main(int argc, char** argv) {
   CLI::App app(
-      "Runs each scenario in Bullet and in MuJoCo, and prints both results as "
-      "the table in docs/plants.md. Exit code 1 if the robot recovers in only "
+      "Runs each scenario in Bullet and in MuJoCo, and prints a table of both "
+      "results, see docs/plants.md. Exit code 1 if the robot recovers in only "
       "one of them.",
       "sim_to_sim");
   ParseCommandLine(argc, argv, &app);
@@ -49,11 +54,10 @@ int Main(int argc, char** argv) {
   std::cout << "| scenario | Bullet | MuJoCo | CoM error, peak x [mm] | y "
                "[mm] | z [mm] | foot tilt [rad] | foot slide [mm] |\n"
                "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const std::string name : kScenarios) {
+  for (const std::filesystem::path& file : ScenarioFiles()) {
     std::array<std::future<Verdict>, 2> verdicts;
     for (const int i : {0, 1}) {
-      Experiment experiment{robot,
-                            LoadScenario("sim/scenarios/" + name + ".yaml")};
+      Experiment experiment{robot, LoadScenario(file)};
       experiment.scenario.plant_kind = i == 0 ? "bullet" : "mujoco";
       verdicts[i] = std::async(std::launch::async, [experiment] {
         return Run(experiment.robot, experiment.scenario).verdict;
@@ -61,7 +65,7 @@ int Main(int argc, char** argv) {
     }
     const Verdict bullet = verdicts[0].get();
     const Verdict mujoco = verdicts[1].get();
-    PrintRow(name, bullet, mujoco);
+    PrintRow(file.stem().string(), bullet, mujoco);
     agree = agree && bullet.recovered == mujoco.recovered;
   }
   return agree ? 0 : 1;

@@ -42,6 +42,7 @@ void PrintSameProblems(const Experiment& experiment) {
                 r.median_us, r.p99_us, r.failures);
   }
   std::printf("\nTicks with an active constraint: %ld.\n\n", results[0].ticks);
+  std::fflush(stdout);  // The next table takes long.
 }
 
 void PrintOutcomes(const std::vector<Experiment>& pushes) {

@@ -9,7 +9,7 @@
 namespace poise {
 
 /// Returns the path of the log in a run's folder: log.bin if only that file
-/// exists, else log.csv.
+/// exists, else log.csv. Throws std::invalid_argument if `run` is not a folder.
 std::filesystem::path FindLog(const std::filesystem::path& run);
 
 /// Opens a log. Its first bytes tell the format. Throws std::invalid_argument

@@ -10,6 +10,7 @@
 
 #include "poise/robot/control/conflict.h"
 #include "poise/sim/log/columns.h"
+#include "poise/sim/log/output_file.h"
 
 namespace poise {
 
@@ -90,9 +91,7 @@ std::vector<std::string> BodyNames(const Tree& tree) {
 
 std::ofstream Open(const std::filesystem::path& file) {
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  if (!stream) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
+  if (!stream) ThrowNotWritten(file);
   return stream;
 }
 
@@ -154,23 +153,36 @@ Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
                    const Stack& stack, LogFormat format)
     : body_names_(BodyNames(robot.model.tree)),
       num_levels_(LastLevel(stack)),
-      rows_(MakeLogRows(format, Columns(robot, stack))) {
+      rows_(MakeLogRows(format, Columns(robot, stack))),
+      log_file_(folder / LogFileName(format)) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw std::invalid_argument(folder.string() +
                                 ": cannot be created: " + error.message());
   }
+  // Nothing of an earlier run is removed before both files can be written.
+  RequireWritable(log_file_);
+  RequireWritable(TimingFile());
   // Readers would mistake the log of an earlier run for the log of this run.
   for (const LogFormat other : {LogFormat::kCsv, LogFormat::kBinary}) {
     std::filesystem::remove(folder / LogFileName(other), error);
   }
-  log_ = Open(folder / LogFileName(format));
-  timing_ = Open(folder / "timing.csv");
+  log_ = Open(log_file_);
+  timing_ = Open(TimingFile());
   log_rows_ = rows_->Header();
   hash_.Update(log_rows_);
   timing_rows_ = "tick,us,iterations,modelled_us\n";
   Flush();
+}
+
+Recorder::~Recorder() {
+  log_ << log_rows_;
+  timing_ << timing_rows_;
+}
+
+std::filesystem::path Recorder::TimingFile() const {
+  return log_file_.parent_path() / "timing.csv";
 }
 
 void Recorder::EndEntries() {
@@ -288,8 +300,8 @@ void Recorder::Record(const TickRecord& record) {
 }
 
 void Recorder::Flush() {
-  log_ << log_rows_ << std::flush;
-  timing_ << timing_rows_ << std::flush;
+  if (!(log_ << log_rows_ << std::flush)) ThrowNotWritten(log_file_);
+  if (!(timing_ << timing_rows_ << std::flush)) ThrowNotWritten(TimingFile());
   log_rows_.clear();
   timing_rows_.clear();
   rows_waiting_ = 0;

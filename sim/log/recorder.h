@@ -27,22 +27,26 @@ namespace poise {
 class Recorder {
  public:
   /// Creates the folder and overwrites an older log in it. Throws
-  /// std::invalid_argument if the folder or a file cannot be written.
+  /// std::invalid_argument if the folder or a file cannot be written; the older
+  /// files then remain.
   Recorder(const std::filesystem::path& folder, const Robot& robot,
            const Stack& stack, LogFormat format = LogFormat::kCsv);
-  ~Recorder() { Flush(); }
+  ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
+  /// Throws as Flush() does.
   void Record(const TickRecord& record);
 
-  /// Writes all waiting rows to the files.
+  /// Writes all waiting rows to the files. Throws std::invalid_argument if a file
+  /// cannot be written, for example because the disk is full.
   void Flush();
 
   /// Returns the SHA-256 of the log up to now.
   std::string log_sha256() const { return hash_.Digest(); }
 
  private:
+  std::filesystem::path TimingFile() const;
   void Entry(std::string_view name, double value);
   void EndEntries();
   void ConflictCell(const TickRecord& record);
@@ -60,6 +64,7 @@ class Recorder {
   int rows_waiting_ = 0;
   double next_conflict_ = 0;  // Earliest time of the next search, s.
   Sha256 hash_;
+  std::filesystem::path log_file_;
 };
 
 /// Returns "ok", "limit_relaxed", "truncated" or "fail_safe".

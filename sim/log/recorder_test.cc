@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "poise/robot/profile/profile.h"
@@ -237,6 +239,43 @@ TEST(Recorder, RemovesALogOfTheOtherFormat) {
   { Recorder(Folder("again"), Humanoid(), stack); }
   EXPECT_FALSE(std::filesystem::exists(Folder("again") / "log.bin"));
   EXPECT_TRUE(std::filesystem::exists(Folder("again") / "log.csv"));
+}
+
+std::string ErrorOf(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Recorder, KeepsTheOldLogIfAFileCannotBeWritten) {
+  ClosedLoop loop(Humanoid(), Pushed());
+  const auto folder = Folder("refused");
+  std::filesystem::create_directories(folder / "timing.csv");
+  std::ofstream(folder / "log.csv") << "old";
+  std::ofstream(folder / "log.bin") << "old";
+  EXPECT_EQ(
+      ErrorOf([&] {
+        const Recorder recorder(folder, Humanoid(), loop.controller().stack());
+      }),
+      (folder / "timing.csv").string() + ": cannot be written: Is a directory");
+  EXPECT_EQ(Contents(folder / "log.csv"), "old");
+  EXPECT_EQ(Contents(folder / "log.bin"), "old");
+}
+
+TEST(Recorder, NamesTheFileOnAFullDisk) {
+  ClosedLoop loop(Humanoid(), Pushed());
+  const auto folder = Folder("full");
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_symlink("/dev/full", folder / "timing.csv");
+  EXPECT_EQ(ErrorOf([&] {
+              const Recorder recorder(folder, Humanoid(),
+                                      loop.controller().stack());
+            }),
+            (folder / "timing.csv").string() +
+                ": cannot be written: No space left on device");
 }
 
 // The recorder runs in a child process. SIGKILL leaves it no chance to write

@@ -2,9 +2,11 @@
 #include "poise/sim/log/run_summary.h"
 
 #include <fstream>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "poise/robot/finding.h"
 #include "poise/sim/log/open_log.h"
 #include "poise/sim/log/sha256.h"
 
@@ -22,16 +24,54 @@ std::string HashOf(const std::filesystem::path& file) {
   return hash.Digest();
 }
 
+[[noreturn]] void Refuse(const std::filesystem::path& file,
+                         const std::string& defect) {
+  throw std::invalid_argument(file.string() + ": " + defect +
+                              "; run push again, or remove this file to read "
+                              "the log alone");
+}
+
+// Checks the values from which a reader computes times, or says the outcome.
+void RequireValid(const nlohmann::json& values,
+                  const std::filesystem::path& file) {
+  const auto refuse = [&](const char* key, const char* wanted) {
+    Refuse(file, std::string(key) + " is " + OneLine(values[key].dump()) +
+                     ", must be " + wanted);
+  };
+  if (!values.contains("recovered")) {
+    Refuse(file, "has no key 'recovered', is not the summary of a run");
+  }
+  if (!values["recovered"].is_boolean() && !values["recovered"].is_null()) {
+    refuse("recovered", "true, false or null");
+  }
+  const auto is_bad = [&](const char* key, auto is_good) {
+    const nlohmann::json value = values.value(key, nlohmann::json());
+    return !value.is_null() &&
+           !(value.is_number() && is_good(value.get<double>()));
+  };
+  if (is_bad("control_dt", [](double dt) { return dt > 0; })) {
+    refuse("control_dt", "a positive time, s");
+  }
+  for (const char* key : {"duration", "fell_at"}) {
+    if (is_bad(key, [](double time) { return time >= 0; })) {
+      refuse(key, "a time of at least 0 s");
+    }
+  }
+}
+
 }  // namespace
 
 RunSummary ReadRunSummary(const std::filesystem::path& run) {
-  std::ifstream stream(run / "summary.json");
+  const std::filesystem::path file = run / "summary.json";
+  std::ifstream stream(file);
   if (!stream) return {nullptr, "summary.json does not exist."};
   nlohmann::json values = nlohmann::json::parse(stream, nullptr,
                                                 /*allow_exceptions=*/false);
-  if (!values.is_object()) {
-    return {nullptr, "summary.json cannot be read as JSON."};
+  if (values.is_discarded()) {
+    Refuse(file, "is not JSON, may be empty or cut short");
   }
+  if (!values.is_object()) Refuse(file, "must be a JSON object");
+  RequireValid(values, file);
   const std::filesystem::path log = FindLog(run);
   const auto hash = values.find("log_sha256");
   if (hash != values.end() && *hash != HashOf(log)) {

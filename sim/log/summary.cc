@@ -185,9 +185,9 @@ std::string StepLines(const Robot& robot, const RunResult& result) {
       lines += Line("step", "%s at %.3f s, not landed", foot.c_str(), step.at);
       continue;
     }
-    lines +=
-        Line("step", "%s at %.3f s to (%.2f, %.2f) m in %.2f s", foot.c_str(),
-             step.at, step.landed.x(), step.landed.y(), step.swing_time);
+    lines += Line("step", "%s at %.3f s, landed at (%.2f, %.2f) m after %.2f s",
+                  foot.c_str(), step.at, step.landed.x(), step.landed.y(),
+                  step.swing_time);
   }
   if (count > kMostLines)
     lines += Line("step", "and %d more", count - kMostLines);
@@ -199,6 +199,29 @@ std::string StepLines(const Robot& robot, const RunResult& result) {
     lines += Line("not done", "%s", missed.c_str());
   }
   return lines;
+}
+
+// Returns the outcome, the first line of the table.
+std::string OutcomeLine(const Scenario& scenario, const RunResult& result) {
+  const Verdict& verdict = result.verdict;
+  char text[120];
+  if (verdict.fell_at) {
+    std::snprintf(text, sizeof(text), "fell at %.3f s: ", *verdict.fell_at);
+    return text + FellBy(result) + (result.interrupted ? " (interrupted)" : "");
+  }
+  if (result.interrupted) return "interrupted";
+  if (verdict.recovered) {
+    return result.commanded_done.value_or(true)
+               ? "recovered"
+               : "recovered, but the commanded motion did not happen";
+  }
+  const auto after = TooShortAfterPushes(scenario, result);
+  if (!after) return "did not come back";
+  std::snprintf(text, sizeof(text),
+                "not recovered: the run ends %.3g s %s the end of the push, "
+                "recovery needs %.3g s after it",
+                std::abs(*after), *after < 0 ? "before" : "after", Judge::kEnd);
+  return text;
 }
 
 }  // namespace
@@ -233,6 +256,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["fell_at"] = verdict.fell_at ? Json(*verdict.fell_at) : Json(nullptr);
   json["fell_by"] = FellBy(result);
   json["interrupted"] = result.interrupted;
+  json["time_after_push"] = Number(TimeAfterPushes(scenario.pushes, simulated));
   json["com_error_peak"] = Numbers(verdict.com_error_peak);
   json["com_error_final"] = Numbers(verdict.com_error_final);
   json["cop_peak"] = Numbers(verdict.cop_peak);
@@ -274,22 +298,8 @@ std::string ToTable(const Robot& robot, const Scenario& scenario,
   const Verdict& verdict = result.verdict;
   const Eigen::Vector3d peak = 1e3 * verdict.com_error_peak;
   const Eigen::Vector3d last = 1e3 * verdict.com_error_final;
-  std::string table = scenario.name + ": ";
-  char text[80];
-  if (result.interrupted && !verdict.fell_at) {
-    table += "interrupted";
-  } else if (verdict.recovered) {
-    table += result.commanded_done.value_or(true)
-                 ? "recovered"
-                 : "recovered, but the commanded motion did not happen";
-  } else if (verdict.fell_at) {
-    std::snprintf(text, sizeof(text), "fell at %.3f s: ", *verdict.fell_at);
-    table += text + FellBy(result);
-  } else {
-    table += "did not come back";
-  }
-  const bool fell_before = result.interrupted && verdict.fell_at;
-  table += fell_before ? " (interrupted)\n\n" : "\n\n";
+  std::string table =
+      scenario.name + ": " + OutcomeLine(scenario, result) + "\n\n";
   table +=
       Line("robot", "%s, %d joints, %.1f kg", OneLine(robot.model.name).c_str(),
            robot.model.tree.num_joints(), robot.model.tree.total_mass());

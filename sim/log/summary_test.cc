@@ -108,6 +108,21 @@ TEST(Summary, PrintsALineForEachPushWithItsOwnForce) {
   EXPECT_TRUE(has("and 3 more"));
 }
 
+TEST(Summary, SaysWhereAStepLanded) {
+  RunResult result;
+  TakenStep step;
+  step.at = 1.1;
+  step.has_landed = true;
+  step.swing_time = 0.2;
+  step.planned = {0.18, 0.47};
+  step.landed = {0.17, 0.45};
+  result.steps = {step};
+  EXPECT_NE(ToTable(LoadHumanoid(), {}, result)
+                .find("left_foot at 1.100 s, landed at (0.17, 0.45) m after "
+                      "0.20 s\n"),
+            std::string::npos);
+}
+
 // A force that turns with its link is given in the axes of the link's body.
 TEST(Summary, NamesTheAxesOfAForce) {
   const Robot robot = LoadHumanoid();

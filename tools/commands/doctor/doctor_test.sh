@@ -38,6 +38,19 @@ expect 2 1 "$urdf" --profile no_such.yaml
 printf 'feet:\n  left_foot: 1\n' > bad.yaml
 expect 2 1 "$urdf" --profile bad.yaml
 grep -q '^bad.yaml:2: ' err || fail "the message has no line number of the profile: $(cat err)"
+
+# The saved profile must not replace an input, nor what a link points to.
+cp "$urdf" mine.urdf
+ln -s mine.urdf link.yaml
+for name in mine.urdf ./mine.urdf link.yaml; do
+  expect 2 1 mine.urdf --save-profile "$name"
+  [ "$(cat err)" = "doctor: $name: is the robot's file and would be replaced, choose another name" ] ||
+    fail "--save-profile $name: stderr is $(cat err)"
+  cmp "$urdf" mine.urdf || fail "--save-profile $name replaces the robot's file"
+done
+expect 0 0 mine.urdf --save-profile new.yaml
+expect 2 1 mine.urdf --profile new.yaml --save-profile new.yaml
+
 expect 2 1
 expect 2 1 "$urdf" --nonsense
 expect 0 0 --help

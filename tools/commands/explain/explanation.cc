@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "poise/sim/judge.h"
 #include "poise/sim/log/open_log.h"
 #include "poise/sim/log/run_summary.h"
 #include "poise/tools/commands/explain/foot_story.h"
@@ -139,17 +140,24 @@ bool WasInterrupted(const json& summary) {
 }
 
 std::string Ending(const json& summary) {
-  if (!summary.contains("recovered"))
-    return "The end of the run is not recorded.";
   if (WasInterrupted(summary)) {
     const json at = summary.value("duration", json());
     return "The run was interrupted" +
            (at.is_number() ? Format(" at %.3f s", at.get<double>()) : "") +
            " while the robot was still standing: the outcome is not known.";
   }
-  if (summary["recovered"] == true) return "The robot recovered.";
+  const json recovered = summary.value("recovered", json());
+  if (recovered.is_null()) return "The end of the run is not recorded.";
+  if (recovered == true) return "The robot recovered.";
   const json fell_at = summary.value("fell_at", json());
   if (!fell_at.is_number()) {
+    const json after = summary.value("time_after_push", json());
+    if (after.is_number() && after < Judge::kEnd - kRounding) {
+      return Format("The run ends %.3g s", std::abs(after.get<double>())) +
+             (after < 0 ? " before" : " after") +
+             " the end of the push: too early to tell whether the robot "
+             "recovers.";
+    }
     return "The robot did not fall, but did not return to its reference.";
   }
   const json by = summary.value("fell_by", json());
@@ -368,7 +376,11 @@ json Explain(const std::filesystem::path& run) {
     notes.push_back(log.filename().string() +
                     " was cut short: its last row is incomplete.");
   }
-  if (read.is_of_other_log) notes.push_back(read.note);
+  const std::string unknown =
+      read.note.empty() ? ""
+                        : read.note +
+                              " So the outcome of the run and the units of "
+                              "the rows are not known.";
 
   json out = {
       {"recovered",
@@ -388,6 +400,7 @@ json Explain(const std::filesystem::path& run) {
   out["touches"] = ExplainTouches(story, &sentences);
 
   json said = json::array();
+  if (!unknown.empty()) said.push_back(unknown);
   const size_t left_out = SayInOrder(summary, sentences, &said);
   const std::string said_of_quiet =
       story.has_rows ? SayNothing(story)
@@ -407,7 +420,13 @@ json Explain(const std::filesystem::path& run) {
   if (is_quiet) must_be_said.push_back(said_of_quiet);
   if (!truncated.empty()) must_be_said.push_back(truncated);
   for (const json& note : notes) must_be_said.push_back(note);
-  out["story"] = TellShortStory(story, summary, must_be_said, Ending(summary));
+  std::vector<std::string> story_told =
+      TellShortStory(story, summary, must_be_said, Ending(summary));
+  if (!unknown.empty()) {
+    story_told.insert(story_told.begin(), unknown);
+    out["notes"].push_back(unknown);
+  }
+  out["story"] = story_told;
   return out;
 }
 

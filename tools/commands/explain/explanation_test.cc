@@ -69,7 +69,7 @@ const nlohmann::json& Rows() {
 }
 
 // Returns a summary with the descriptions of Rows().
-std::string Described(const std::string& summary = "{}") {
+std::string Described(const std::string& summary = R"({"recovered": null})") {
   nlohmann::json json = nlohmann::json::parse(summary);
   json["rows"] = Rows();
   return json.dump();
@@ -173,6 +173,32 @@ TEST(Explanation, GivesNoOutcomeForInterruptedRun) {
             "The robot fell at 1.250 s.");
 }
 
+TEST(Explanation, SaysThatTheRunEndsTooSoonAfterThePush) {
+  EXPECT_EQ(Explain(MakeRun("soon", kPushed,
+                            R"({"recovered": false, "fell_at": null,
+                                "time_after_push": -0.05})"))["sentences"]
+                .back(),
+            "The run ends 0.05 s before the end of the push: too early to "
+            "tell whether the robot recovers.");
+  EXPECT_EQ(Explain(MakeRun("late", kPushed,
+                            R"({"recovered": false, "fell_at": null,
+                                "time_after_push": 0.5})"))["sentences"]
+                .back(),
+            "The robot did not fall, but did not return to its reference.");
+}
+
+// Without descriptions of rows, forces and moments cannot be told apart.
+TEST(Explanation, ComparesNoForcesWithoutASummary) {
+  const auto run = MakeRun("no_summary", kPushed, "");
+  std::filesystem::remove(run / "summary.json");
+  const nlohmann::json said = Explain(run);
+  EXPECT_EQ(said["story"],
+            nlohmann::json({"summary.json does not exist. So the outcome of "
+                            "the run and the units of the rows are not known.",
+                            "The end of the run is not recorded."}));
+  EXPECT_EQ(said["notes"][0], said["story"][0]);
+}
+
 TEST(Explanation, IgnoresSummaryOfAnotherLog) {
   const nlohmann::json said =
       Explain(MakeRun("other_log", std::string(kPushed) + "0.92,o",
@@ -180,21 +206,23 @@ TEST(Explanation, IgnoresSummaryOfAnotherLog) {
                           "log_sha256": "of the whole log"})"));
   EXPECT_TRUE(said["recovered"].is_null());
   EXPECT_TRUE(said["fell_at"].is_null());
-  const size_t count = said["sentences"].size();
-  EXPECT_EQ(said["sentences"][count - 3],
-            "log.csv was cut short: its last row is incomplete.");
-  EXPECT_EQ(said["sentences"][count - 2],
+  EXPECT_EQ(said["sentences"][0],
             "summary.json does not belong to this log.csv: its log_sha256 "
-            "differs. The log is of another run, or was cut short or "
-            "changed.");
+            "differs. The log is of another run, or was cut short or changed. "
+            "So the outcome of the run and the units of the rows are not "
+            "known.");
+  EXPECT_EQ(said["story"][0], said["sentences"][0]);
+  const size_t count = said["sentences"].size();
+  EXPECT_EQ(said["sentences"][count - 2],
+            "log.csv was cut short: its last row is incomplete.");
   EXPECT_EQ(said["sentences"][count - 1],
             "The end of the run is not recorded.");
   EXPECT_EQ(said["notes"].size(), 2u);
 }
 
 TEST(Explanation, ReportsLogWithoutRows) {
-  const nlohmann::json said =
-      Explain(MakeRun("no_rows", "time[s],status,active\n", "{}"));
+  const nlohmann::json said = Explain(
+      MakeRun("no_rows", "time[s],status,active\n", R"({"recovered": null})"));
   EXPECT_EQ(said["sentences"][0], "log.csv has a header and no rows.");
 }
 
@@ -205,13 +233,28 @@ TEST(Explanation, ReportsFootThatRollsOrSlides) {
               "left_foot.slide[m]\n"
               "0.1,ok,,1,0.019,0.0049\n0.2,ok,,0,0.5,0.5\n0.3,ok,,1,0.021,0\n"
               "0.4,ok,,1,0.03,0.0051\n",
-              "{}"));
+              R"({"recovered": null})"));
   ASSERT_EQ(said["sentences"].size(), 3u);
   EXPECT_EQ(said["sentences"][0],
             "0.300 s: the left foot rolls over an edge, tilted by more than "
             "0.02 rad.");
   EXPECT_EQ(said["sentences"][1],
             "0.400 s: the left foot has slid by more than 5 mm.");
+}
+
+// The log has the planned place of a step, summary.json the place of the landing.
+TEST(Explanation, SaysThatThePlaceOfAStepIsPlanned) {
+  const nlohmann::json said = Explain(
+      MakeRun("stepped",
+              "time[s],status,active,left_foot.phase,plan.x[m],plan.y[m],"
+              "plan.beyond[m]\n"
+              "0.1,ok,,down,,,\n0.2,ok,,stepping,0.18,0.47,0.035\n"
+              "0.3,ok,,stepping,0.18,0.47,0.035\n0.4,ok,,down,,,\n",
+              R"({"recovered": true})"));
+  EXPECT_EQ(said["story"][0],
+            "0.200 s: the robot steps with the left foot, planned to (0.18, "
+            "0.47) m, in 0.20 s, as the capture point is 4 cm beyond the "
+            "edge.");
 }
 
 TEST(Explanation, PrintsRowsWithTheSamePhraseOnce) {
@@ -232,10 +275,12 @@ TEST(Explanation, PrintsRowsWithTheSamePhraseOnce) {
 
 TEST(Explanation, RejectsFolderWithoutValidLog) {
   EXPECT_THROW(Explain("nowhere"), std::invalid_argument);
-  EXPECT_THROW(Explain(MakeRun("other", "a,b\n1,2\n", "{}")),
-               std::invalid_argument);
+  EXPECT_THROW(
+      Explain(MakeRun("other", "a,b\n1,2\n", R"({"recovered": null})")),
+      std::invalid_argument);
   const std::filesystem::path garbled =
-      MakeRun("garbled", "time[s],com.x[m],status,active\n0,0.0a1,ok,\n", "{}");
+      MakeRun("garbled", "time[s],com.x[m],status,active\n0,0.0a1,ok,\n",
+              R"({"recovered": null})");
   try {
     Explain(garbled);
     ADD_FAILURE() << "0.0a1 was accepted as a number";
@@ -253,7 +298,7 @@ TEST(Explanation, ReportsPhasesOfTheFeet) {
                       "0,ok,,down,lost\n0.45,ok,,free,lost\n0.5,ok,,free,down\n"
                       "1.65,ok,,returning,down\n2.1,ok,,loading,down\n"
                       "2.4,ok,,down,unloading\n2.7,ok,,down,up\n",
-                      "{}"));
+                      R"({"recovered": null})"));
   ASSERT_EQ(said["stance"].size(), 9u);
   EXPECT_EQ(said["stance"][1],
             nlohmann::json::parse(R"({"foot": "left_foot", "phase": "free",
@@ -279,7 +324,7 @@ TEST(Explanation, ReportsReasonOfFailSafe) {
               "time[s],status,active,reason\n0,ok,,\n0.1,fail_safe,,clock\n"
               "0.11,fail_safe,,clock\n0.5,fail_safe,,state\n"
               "0.9,fail_safe,,no_answer\n1.3,limit_relaxed,,\n",
-              "{}"));
+              R"({"recovered": null})"));
   ASSERT_EQ(said["status"].size(), 4u);
   EXPECT_EQ(said["status"][0]["name"], "fail_safe");
   EXPECT_EQ(said["status"][0]["reason"], "clock");
@@ -313,9 +358,10 @@ TEST(Explanation, NamesFiveCausesWithTheLargestMultipliers) {
   const std::string loss = ",momentum.ly=-12,";
   std::vector<std::string> spoken;
   for (const std::string& cell : {std::string(), conflict}) {
-    const nlohmann::json said = Explain(MakeRun(
-        "causes" + std::to_string(cell.size()),
-        head + active + "torque.late.min=0.5" + loss + cell + "\n", "{}"));
+    const nlohmann::json said = Explain(
+        MakeRun("causes" + std::to_string(cell.size()),
+                head + active + "torque.late.min=0.5" + loss + cell + "\n",
+                R"({"recovered": null})"));
     // Without a conflict the active constraints need not be the cause.
     const nlohmann::json all =
         said["losses"][0][cell.empty() ? "while" : "because"];
@@ -383,7 +429,7 @@ TEST(Explanation, PrintsUnitAndPhraseOfAUsersTask) {
                       "0,ok,warm.room.max=3,base_still.x=2,"
                       "warm.room.max=3;base_still.x=4\n"
                       "0.01,ok,warm.room.max=3,base_still.x=1,\n",
-                      R"({"rows": {
+                      R"({"recovered": null, "rows": {
                 "base_still.x": {"unit": "rad/s2", "kind": "target",
                     "phrase": "the rotation of the base about x",
                     "task": "base_still"},
@@ -465,6 +511,43 @@ TEST(Explanation, ReportsPushesAndTouchingLinks) {
                                        "from": 1.002, "to": 1.003}])"));
 }
 
+TEST(Explanation, NamesEachPushInTheStory) {
+  const auto story = [](int pushes) {
+    std::string log =
+        "time[s],push.fx[N],push.fy[N],push.fz[N],status,active\n";
+    for (int i = 0; i < pushes; ++i) {
+      log += "0." + std::to_string(i) + "00,10,0,0,ok,\n0." +
+             std::to_string(i) + "01,0,0,0,ok,\n";
+    }
+    return Explain(MakeRun("pushes" + std::to_string(pushes), log,
+                           R"({"recovered": true})"))["story"][0];
+  };
+  EXPECT_EQ(story(1),
+            "0.000 s: the robot is pushed forward with 10 N for 1 ms.");
+  EXPECT_EQ(story(2),
+            "0.000 s: the robot is pushed forward with 10 N for 1 ms and at "
+            "0.100 s forward with 10 N for 1 ms.");
+  EXPECT_EQ(story(6),
+            "0.000 s: the robot is pushed forward with 10 N for 1 ms, at "
+            "0.100 s forward with 10 N for 1 ms, at 0.200 s forward with 10 N "
+            "for 1 ms, at 0.300 s forward with 10 N for 1 ms and 2 more "
+            "times.");
+}
+
+TEST(Explanation, TellsTheStoryInOrderOfTime) {
+  const nlohmann::json said = Explain(MakeRun(
+      "ordered",
+      "time[s],status,active,lost,left_foot.contact,left_foot.tilt[rad],"
+      "left_foot.slide[m]\n"
+      "0.1,ok,,,1,0.03,0\n"
+      "0.2,ok,left_foot.cop.x_max=1,momentum.lx=10,1,0,0\n",
+      Described(R"({"recovered": true})")));
+  const std::vector<std::string> story = said["story"];
+  ASSERT_EQ(story.size(), 4u);
+  EXPECT_EQ(story[0].substr(0, 28), "0.100 s: the left foot rolls");
+  EXPECT_EQ(story[1].substr(0, 28), "0.200 s: the most costly lim");
+}
+
 // The knees reach their limits as a consequence of the fall, so they are not
 // named.
 TEST(Explanation, SummarizesAFallInOrderOfCause) {
@@ -520,7 +603,7 @@ TEST(Explanation, NamesSlipAsCauseOfAFall) {
                             "fell_by": "a foot slid over 30 mm"})")));
   const std::vector<std::string> story = said["story"];
   ASSERT_EQ(story.size(), 4u);
-  EXPECT_EQ(story[0],
+  EXPECT_EQ(story[1],
             "0.200 s: the left foot slips on the ground: it has slid by more "
             "than 5 mm.");
   EXPECT_EQ(story[3],
@@ -559,7 +642,8 @@ TEST(Explanation, CountsTheTicksOfAStatus) {
 // JSON allows only UTF-8. The message names the line.
 TEST(Explanation, RejectsInvalidUtf8) {
   const auto refusal = [](const std::string& name, const std::string& rows) {
-    const auto run = MakeRun(name, "time[s],status,active\n" + rows, "{}");
+    const auto run = MakeRun(name, "time[s],status,active\n" + rows,
+                             R"({"recovered": null})");
     try {
       Explain(run);
     } catch (const std::invalid_argument& error) {

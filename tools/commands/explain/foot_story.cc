@@ -114,10 +114,10 @@ std::string SayStep(const std::string& foot, const FootStory::Step& step) {
   std::string text =
       Format("%.3f s: the robot steps with the ", step.at) + Spaced(foot);
   if (!std::isnan(step.x) && !std::isnan(step.y)) {
-    text += Format(" to (%.2f, ", step.x) + Format("%.2f) m", step.y);
+    text += Format(", planned to (%.2f, ", step.x) + Format("%.2f) m,", step.y);
   }
   text += step.has_landed ? Format(" in %.2f s", step.landing - step.at)
-                          : ", which does not land";
+                          : " and does not land";
   if (step.beyond > 0) {
     text += Format(", as the capture point is %.0f cm beyond the edge",
                    std::ceil(100 * step.beyond));

@@ -58,8 +58,8 @@ class FootStory {
 };
 
 /// Returns a sentence about a step: "1.022 s: the robot steps with the left
-/// foot to (0.17, 0.45) m in 0.17 s, as the capture point is 4 cm beyond the
-/// edge."
+/// foot, planned to (0.17, 0.45) m, in 0.17 s, as the capture point is 4 cm
+/// beyond the edge."
 std::string SayStep(const std::string& foot, const FootStory::Step& step);
 
 }  // namespace poise

@@ -21,8 +21,9 @@ using nlohmann::json;
 constexpr size_t kMostCauses = 2;  // Maximum number of named reasons of a loss.
 constexpr size_t kMostRows = 2;    // Maximum number of named rows of a cause.
 constexpr double kSmallShare = 0.1;  // Smaller shares of a loss are not named.
-// A push may start this much after its effect, s.
-constexpr double kBefore = 0.010;
+constexpr size_t kMostPushes = 4;    // Maximum number of named pushes.
+
+using TimedSentence = std::pair<double, std::string>;  // Its time, s.
 
 // The foot that slips and the time, s.
 struct Slip {
@@ -61,30 +62,31 @@ std::string Direction(const Values& force) {
   return Format(" at %.0f deg (0 forward, 90 left)", degrees);
 }
 
-// Returns the last push that began before momentum was lost.
-const Span* FindPush(const RunStory& story) {
-  const std::vector<Span>& pushes = story.pushes.spans();
-  const Span* found = pushes.empty() ? nullptr : &pushes.front();
-  for (const Span& push : pushes) {
-    if (story.momentum.has_loss() &&
-        push.from <= story.momentum.from() + kBefore) {
-      found = &push;
-    }
-  }
-  return found;
+// Returns a push as " forward with 100 N for 150 ms".
+std::string Describe(const Span& push) {
+  return Direction(push.with) +
+         Format(push.peak < 100 ? " with %.3g N" : " with %.0f N", push.peak) +
+         Format(" for %.0f ms", 1e3 * push.lasted());
 }
 
-std::string SayPush(const Span& push, const RunStory& story,
-                    const json& summary) {
-  std::string text =
-      Format("%.3f s: the robot is pushed", push.from) + Direction(push.with) +
-      Format(push.peak < 100 ? " with %.3g N" : " with %.0f N", push.peak) +
-      Format(" for %.0f ms", 1e3 * push.lasted());
+// Names all pushes, or the first ones of many, in one sentence.
+TimedSentence SayPushes(const std::vector<Span>& pushes, const json& summary) {
+  const size_t said = std::min(pushes.size(), kMostPushes);
+  std::string text = Format("%.3f s: the robot is pushed", pushes[0].from) +
+                     Describe(pushes[0]);
+  for (size_t i = 1; i < said; ++i) {
+    text += Format(i + 1 == pushes.size() ? " and at %.3f s" : ", at %.3f s",
+                   pushes[i].from) +
+            Describe(pushes[i]);
+  }
+  if (said < pushes.size()) {
+    text += " and " + std::to_string(pushes.size() - said) + " more times";
+  }
   const auto impulse = Number(summary, "impulse_Ns");
-  if (impulse && story.pushes.spans().size() == 1) {
+  if (impulse && pushes.size() == 1) {
     text += Format(", an impulse of %.1f N s", *impulse);
   }
-  return text + ".";
+  return {pushes[0].from, text + "."};
 }
 
 // Returns the first foot that slides while it is flat on the ground, before the
@@ -123,7 +125,7 @@ std::string Rows(const MomentumCause& cause) {
 }
 
 // Returns at most two sentences about the steps of the robot.
-std::vector<std::string> SaySteps(const RunStory& story) {
+std::vector<TimedSentence> SaySteps(const RunStory& story) {
   std::vector<std::pair<FootStory::Step, std::string>> steps;
   for (const FootStory& foot : story.feet) {
     for (const FootStory::Step& step : foot.steps()) {
@@ -133,24 +135,30 @@ std::vector<std::string> SaySteps(const RunStory& story) {
   std::sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) {
     return a.first.at < b.first.at;
   });
-  std::vector<std::string> sentences;
+  std::vector<TimedSentence> sentences;
   if (steps.empty()) return sentences;
-  sentences.push_back(SayStep(steps[0].second, steps[0].first));
+  const auto say = [&](size_t i) {
+    sentences.emplace_back(steps[i].first.at,
+                           SayStep(steps[i].second, steps[i].first));
+  };
+  say(0);
   if (steps.size() == 2) {
-    sentences.push_back(SayStep(steps[1].second, steps[1].first));
+    say(1);
   } else if (steps.size() > 2) {
     const FootStory::Step& last = steps.back().first;
-    sentences.push_back(
+    sentences.emplace_back(
+        steps[1].first.at,
         Format("%.3f s: ", steps[1].first.at) + "the robot takes " +
-        std::to_string(steps.size() - 1) + " more steps; " +
-        (last.has_landed ? Format("the last one lands at %.3f s.", last.landing)
-                         : "the last one does not land."));
+            std::to_string(steps.size() - 1) + " more steps; " +
+            (last.has_landed
+                 ? Format("the last one lands at %.3f s.", last.landing)
+                 : "the last one does not land."));
   }
   return sentences;
 }
 
-std::string SayFirstCause(const MomentumCause& cause, const RunStory& story,
-                          const std::optional<double>& fell_at) {
+TimedSentence SayFirstCause(const MomentumCause& cause, const RunStory& story,
+                            const std::optional<double>& fell_at) {
   double from = cause.from, end = cause.from;
   for (const Span& span : story.said.spans()) {
     const bool is_of_it = span.name == cause.rows.front().first &&
@@ -161,9 +169,9 @@ std::string SayFirstCause(const MomentumCause& cause, const RunStory& story,
   }
   std::string text =
       Format("%.3f s: the most costly limit is reached: ", from) + Rows(cause);
-  if (fell_at && end >= *fell_at) return text + ", until the fall.";
-  return text +
-         (end > from ? Format(", for %.0f ms.", 1e3 * (end - from)) : ".");
+  if (fell_at && end >= *fell_at) return {from, text + ", until the fall."};
+  text += end > from ? Format(", for %.0f ms.", 1e3 * (end - from)) : ".";
+  return {from, text};
 }
 
 std::string SayLoss(const RunStory& story,
@@ -215,20 +223,20 @@ std::string SayWhatHelps(const std::string& kind, const std::string& first,
   return text + ".";
 }
 
-// Returns the sentences about the feet before the time `end`, in order of time.
-std::vector<std::string> Events(const RunStory& story, double end) {
-  std::vector<std::pair<double, std::string>> events;
-  for (const FootStory& foot : story.feet) {
-    for (const auto& event : foot.Sentences()) {
-      if (event.first < end) events.push_back(event);
-    }
-  }
+void SortByTime(std::vector<TimedSentence>* sentences) {
   std::stable_sort(
-      events.begin(), events.end(),
+      sentences->begin(), sentences->end(),
       [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::string> sentences;
-  for (const auto& [time, sentence] : events) sentences.push_back(sentence);
-  return sentences;
+}
+
+// Returns the sentences about the feet in order of time.
+std::vector<TimedSentence> Events(const RunStory& story) {
+  std::vector<TimedSentence> events;
+  for (const FootStory& foot : story.feet) {
+    for (const TimedSentence& event : foot.Sentences()) events.push_back(event);
+  }
+  SortByTime(&events);
+  return events;
 }
 
 }  // namespace
@@ -240,40 +248,47 @@ std::vector<std::string> TellShortStory(const RunStory& story,
   const std::vector<MomentumCause> causes = story.momentum.Causes();
   const auto fell_at = Number(summary, "fell_at");
   const auto slip = FindSlip(story, summary);
-  const Span* push = FindPush(story);
+  const std::vector<Span>& pushes = story.pushes.spans();
 
-  std::vector<std::string> before, after;
-  if (push != nullptr) before.push_back(SayPush(*push, story, summary));
-  for (std::string& step : SaySteps(story)) before.push_back(std::move(step));
+  // In order of importance, until they are sorted.
+  std::vector<TimedSentence> before;
+  if (!pushes.empty()) before.push_back(SayPushes(pushes, summary));
+  for (TimedSentence& step : SaySteps(story)) before.push_back(std::move(step));
   if (fell_at && slip) {
-    before.push_back(Format("%.3f s: ", slip->at) + slip->foot +
-                     " slips on the ground: it has slid by more than 5 mm.");
+    before.emplace_back(
+        slip->at, Format("%.3f s: ", slip->at) + slip->foot +
+                      " slips on the ground: it has slid by more than 5 mm.");
   }
   if (!causes.empty()) {
     if (!fell_at || !slip) {
       before.push_back(SayFirstCause(causes.front(), story, fell_at));
     }
-    before.push_back(SayLoss(story, causes));
+    before.emplace_back(story.momentum.from(), SayLoss(story, causes));
   }
-  after = notes;
+  std::vector<std::string> after = notes;
   after.push_back(ending);
   if (fell_at && (slip || !causes.empty())) {
     after.push_back(SayWhatHelps(slip ? "slip" : causes.front().kind,
                                  slip ? "" : causes.front().rows.front().first,
-                                 push != nullptr, summary));
+                                 !pushes.empty(), summary));
   }
-  if (after.size() > kStoryLength) after.resize(kStoryLength);
-  const size_t room = kStoryLength - after.size();
+  const size_t length = kStoryLength - (summary.empty() ? 1 : 0);
+  if (after.size() > length) after.resize(length);
+  const size_t room = length - after.size();
   if (before.size() > room) before.resize(room);
   if (!fell_at) {
-    for (const std::string& event :
-         Events(story, std::numeric_limits<double>::infinity())) {
+    for (const TimedSentence& event : Events(story)) {
       if (before.size() < room) before.push_back(event);
     }
   }
-  before.insert(before.end(), std::make_move_iterator(after.begin()),
-                std::make_move_iterator(after.end()));
-  return before;
+  SortByTime(&before);
+  std::vector<std::string> told;
+  for (TimedSentence& sentence : before) {
+    told.push_back(std::move(sentence.second));
+  }
+  told.insert(told.end(), std::make_move_iterator(after.begin()),
+              std::make_move_iterator(after.end()));
+  return told;
 }
 
 }  // namespace poise

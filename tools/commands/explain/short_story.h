@@ -12,11 +12,13 @@ namespace poise {
 /// Maximum number of sentences of a story.
 constexpr size_t kStoryLength = 6;
 
-/// Summarizes a run in order of cause: the push, the first cause, the momentum
+/// Summarizes a run in order of time: the pushes, the first cause, the momentum
 /// lost because of it, and the end of the run. After a fall, adds what would
 /// have helped. Returns at most kStoryLength sentences.
 ///
-/// @param summary  summary of the run; an empty object if there is none.
+/// @param summary  summary of the run; an empty object if there is none. Then
+///                 the story has a sentence less, and the caller says first that
+///                 there is no summary.
 /// @param notes    sentences that the result must contain.
 /// @param ending   sentence about the end of the run.
 std::vector<std::string> TellShortStory(const RunStory& story,

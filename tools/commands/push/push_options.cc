@@ -23,6 +23,7 @@
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/keep_inputs.h"
 #include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/push/overrides.h"
 #include "poise/tools/commands/user_path.h"
@@ -245,6 +246,13 @@ PushOptions ReadPushOptions(int argc, char** argv) {
   std::unique_ptr<ClosedLoop> loop;
   try {
     Apply(overrides, &scenario);
+    KeepInputs(files.save_profile,
+               {{robot_file, "the robot's file"},
+                {scenario_file, "the scenario's file"},
+                {sources.pushes, "the file of pushes"},
+                {scenario.control.tasks, "the task set"},
+                {files.profile.empty() ? "" : UserPath(files.profile),
+                 "the profile that is read"}});
     const Profile profile = ChooseProfile(files);
     // `--tasks default` selects the default tasks even if the profile has
     // tasks.

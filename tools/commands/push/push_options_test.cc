@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -57,6 +58,25 @@ TEST(PushOptions, NamesTheFileOfAnInvalidValue) {
             scenario +
                 ": control.rate is 300, must evenly divide plant.rate, "
                 "which is 1000");
+}
+
+// The saved profile must not replace a file that the run reads.
+TEST(PushOptions, RefusesToSaveTheProfileOverAnInput) {
+  const std::pair<const char*, const char*> inputs[] = {
+      {"--robot", "the robot's file"},
+      {"--scenario", "the scenario's file"},
+      {"--pushes", "the file of pushes"},
+      {"--tasks", "the task set"},
+      {"--profile", "the profile that is read"}};
+  for (const auto& [option, name] : inputs) {
+    const std::string file = TestFile("mine", "pushes: []").string();
+    EXPECT_EQ(
+        Refusal({option, file, "--save-profile", file}),
+        file + ": is " + name + " and would be replaced, choose another name");
+    std::string left;
+    std::getline(std::ifstream(file), left);
+    EXPECT_EQ(left, "pushes: []") << option;
+  }
 }
 
 // Tasks from options follow tasks from the file. The message names the file

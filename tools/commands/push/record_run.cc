@@ -2,10 +2,10 @@
 #include "poise/tools/commands/push/record_run.h"
 
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
+#include "poise/sim/log/output_file.h"
 #include "poise/sim/log/summary.h"
 #include "poise/sim/push.h"
 #include "poise/sim/step_yardstick.h"
@@ -15,10 +15,13 @@ namespace poise {
 
 namespace {
 
+constexpr const char* kAfterTheRun[] = {"summary.json", "robot.json",
+                                        "report.html"};
+
 // Removes the files of an earlier run, because they would seem to belong to the
 // new log.
 void RemoveOld(const std::filesystem::path& folder) {
-  for (const char* name : {"summary.json", "robot.json", "report.html"}) {
+  for (const char* name : kAfterTheRun) {
     std::error_code ignored;
     std::filesystem::remove(folder / name, ignored);
   }
@@ -39,9 +42,7 @@ std::optional<double> StepYardstick(const Robot& robot,
 void Write(const std::string& text, const std::filesystem::path& file) {
   std::ofstream stream(file);
   stream << text << '\n';
-  if (!stream.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
+  if (!stream.flush()) ThrowNotWritten(file);
 }
 
 }  // namespace
@@ -49,6 +50,7 @@ void Write(const std::string& text, const std::filesystem::path& file) {
 RunRecord RecordRun(ClosedLoop* loop, const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress,
                     LogFormat format) {
+  for (const char* name : kAfterTheRun) RequireWritable(folder / name);
   // Old files are removed only after the new log has begun. So a run that is
   // rejected does not damage the earlier run.
   bool has_begun = false;

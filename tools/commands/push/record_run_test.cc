@@ -69,5 +69,22 @@ TEST_F(RecordRunTest, KeepsEarlierRunIfScenarioIsRejected) {
   for (const char* name : kOld) EXPECT_EQ(Read(name), "old") << name;
 }
 
+TEST_F(RecordRunTest, KeepsEarlierRunIfAFileCannotBeWritten) {
+  const fs::path report = folder_ / "report.html";
+  fs::remove(report);
+  fs::create_directories(report / "below");
+  try {
+    RecordRun(experiment_, folder_);
+    ADD_FAILURE() << "the run must be refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(),
+              report.string() + ": cannot be written: Is a directory");
+  }
+  fs::remove_all(report);
+  for (const char* name : {"log.csv", "summary.json", "robot.json"}) {
+    EXPECT_EQ(Read(name), "old") << name;
+  }
+}
+
 }  // namespace
 }  // namespace poise

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "poise/robot/finding.h"
+#include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/push/push_options.h"
@@ -157,6 +158,8 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   ControlSettings& control = experiment.scenario.control;
   control.with.insert(control.with.end(), with.begin(), with.end());
   control.without.insert(control.without.end(), without.begin(), without.end());
+  // An invalid experiment is rejected before the map's folder is made.
+  const ClosedLoop valid(experiment.robot, experiment.scenario);
   if (out.empty()) {
     out = "push-map-out";
     if (shard.count > 1) {

@@ -60,6 +60,15 @@ map whole --directions 2 --without cop,yaw --with yaw_constant
 [ "$(grep -c -- ',-cop-yaw+yaw_constant,' "$whole")" = 2 ] ||
   fail "the second set of tasks is not in $(cat "$whole")"
 
+# A rejected command leaves no map, so that the corrected command can use the folder.
+code=0
+map fresh --directions 1 --with foo 2> "$TEST_TMPDIR/error" || code=$?
+[ "$code" = 2 ] || fail "--with foo: exit code is $code, must be 2"
+grep -q "^push_map: task 'foo' is unknown" "$TEST_TMPDIR/error" ||
+  fail "--with foo prints: $(cat "$TEST_TMPDIR/error")"
+[ ! -e "$TEST_TMPDIR/fresh" ] || fail "--with foo leaves $(ls "$TEST_TMPDIR/fresh")"
+map fresh --directions 1 --mu-plant 0.5
+
 # Usage: refuse MESSAGE OPTION...: push_map must exit with code 2 and MESSAGE.
 refuse() {
   local message=$1 code=0

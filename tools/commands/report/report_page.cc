@@ -20,8 +20,8 @@ using std::filesystem::path;
 // Marks the place in the page where the data are inserted.
 constexpr std::string_view kPlaceholder = "\"POISE-DATA\"";
 
-// Reads a file that may be missing. If it is missing or not a JSON object, adds
-// a note and returns null.
+// Reads a file that may be missing: then adds a note and returns null. Throws
+// std::invalid_argument if the file is not a JSON object.
 json ReadOptional(const path& file, json* notes) {
   std::ifstream stream(file);
   if (!stream) {
@@ -30,8 +30,10 @@ json ReadOptional(const path& file, json* notes) {
   }
   json value = json::parse(stream, nullptr, /*allow_exceptions=*/false);
   if (!value.is_object()) {
-    notes->push_back(file.filename().string() + " cannot be read as JSON.");
-    return nullptr;
+    throw std::invalid_argument(
+        file.string() +
+        ": is not a JSON object, may be empty or cut short; run push again, or "
+        "remove this file to see the run without its robot");
   }
   return value;
 }
@@ -89,10 +91,6 @@ void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
 }  // namespace
 
 json ReadRun(const path& run_dir) {
-  if (!std::filesystem::is_directory(run_dir)) {
-    throw std::invalid_argument(run_dir.string() +
-                                ": must be the folder of a run");
-  }
   json log = ReadRunLog(FindLog(run_dir));
   json notes = TakeNotes(&log);
   RunSummary read = ReadRunSummary(run_dir);
@@ -131,18 +129,24 @@ std::string FillPage(std::string_view page, const json& document) {
   return filled;
 }
 
-void WriteReport(const std::vector<path>& run_dirs, const path& html,
-                 const std::vector<path>& packages) {
+std::vector<std::string> WriteReport(const std::vector<path>& run_dirs,
+                                     const path& html,
+                                     const std::vector<path>& packages) {
   if (run_dirs.empty() || run_dirs.size() > 2) {
     throw std::invalid_argument("a report must show one run or two, not " +
                                 std::to_string(run_dirs.size()));
   }
   json runs = json::array();
+  std::vector<std::string> notes;
   for (const path& run_dir : run_dirs) {
     runs.push_back(ReadRun(run_dir));
+    for (const json& note : runs.back()["notes"]) {
+      notes.push_back(run_dir.string() + ": " + note.get<std::string>());
+    }
     if (!packages.empty()) AddMeshes(packages, &runs.back()["robot"]);
   }
   WritePage(std::move(runs), html);
+  return notes;
 }
 
 void WriteRunReport(const RunFiles& run, const path& html) {

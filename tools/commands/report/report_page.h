@@ -15,9 +15,9 @@ namespace poise {
 ///     robot    robot.json, see MakeRobotJson(). If null, no robot is drawn.
 ///     log      see ReadRunLog().
 ///     timing   see ReadTiming(), or null.
-///     notes    [sentence, ...]: missing files and errors in files.
+///     notes    [sentence, ...]: missing files and errors in the log.
 /// Only the log is required. Throws std::invalid_argument with the name of the
-/// file if the folder or its log is missing, or if the log is invalid.
+/// file if the folder or its log is missing, or if a file is invalid.
 nlohmann::json ReadRun(const std::filesystem::path& run_dir);
 
 /// A run that this process has recorded, with the data that need not be read
@@ -38,14 +38,16 @@ nlohmann::json ReadRun(const RunFiles& run);
 std::string FillPage(std::string_view page, const nlohmann::json& document);
 
 /// Writes a self-contained page that shows one run, or compares two runs at the
-/// same time. Throws std::invalid_argument if the number of runs is not one or
+/// same time. Returns the notes about the runs, each with the folder before it.
+/// Throws std::invalid_argument if the number of runs is not one or
 /// two, if a run cannot be read, or if the page cannot be written.
 ///
 /// @param packages  if not empty, meshes that a run did not find are searched
 ///                  again, see AddMeshes().
-void WriteReport(const std::vector<std::filesystem::path>& run_dirs,
-                 const std::filesystem::path& html,
-                 const std::vector<std::filesystem::path>& packages = {});
+std::vector<std::string> WriteReport(
+    const std::vector<std::filesystem::path>& run_dirs,
+    const std::filesystem::path& html,
+    const std::vector<std::filesystem::path>& packages = {});
 
 /// Writes the same page for one run that this process has recorded.
 void WriteRunReport(const RunFiles& run, const std::filesystem::path& html);

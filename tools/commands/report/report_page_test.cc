@@ -71,7 +71,8 @@ TEST(ReportPage, ShowsOneRun) {
   const fs::path run = EmptyFolder("run_alone");
   Write(run / "log.csv", "time[s],com.x[m]\n0,0.5\n0.002,0.5\n");
   Write(run / "timing.csv", "tick,us,iterations\n0,200,4\n1,210,4\n");
-  Write(run / "summary.json", R"({"scenario": "stand", "control_dt": 0.002})");
+  Write(run / "summary.json",
+        R"({"scenario": "stand", "recovered": true, "control_dt": 0.002})");
   Write(run / "robot.json", R"({"name": "bot"})");
   WriteReport({run}, run / "report.html");
   const json data = DataOf(Read(run / "report.html"));
@@ -155,18 +156,23 @@ TEST(ReportPage, HasLessThanFiveMegabytesForDetailedMeshes) {
   EXPECT_LT(fs::file_size(run / "report.html"), 5'000'000u);
 }
 
-TEST(ReportPage, NotesMissingAndUnreadableFiles) {
+TEST(ReportPage, NotesMissingFiles) {
   const fs::path run = EmptyFolder("run_missing");
   Write(run / "log.csv", "time[s]\n");
-  Write(run / "summary.json", "{\"scenario\": \"sta");
   const json shown = ReadRun(run / "");
   EXPECT_EQ(shown["name"], "run_missing");
   EXPECT_TRUE(shown["summary"].is_null());
   EXPECT_TRUE(shown["robot"].is_null());
   EXPECT_TRUE(shown["timing"].is_null());
-  EXPECT_EQ(shown["notes"], json({"log.csv has a header and no rows.",
-                                  "summary.json cannot be read as JSON.",
-                                  "robot.json is missing."}));
+  EXPECT_EQ(shown["notes"],
+            json({"log.csv has a header and no rows.",
+                  "summary.json does not exist.", "robot.json is missing."}));
+  const std::string name = run.string();
+  EXPECT_EQ(
+      WriteReport({run}, run / "report.html"),
+      (std::vector<std::string>{name + ": log.csv has a header and no rows.",
+                                name + ": summary.json does not exist.",
+                                name + ": robot.json is missing."}));
 }
 
 TEST(ReportPage, IgnoresSummaryOfAnotherLog) {
@@ -202,13 +208,20 @@ TEST(ReportPage, NamesTheFileThatCannotBeReadOrWritten) {
   };
   const fs::path run = EmptyFolder("run_broken");
   EXPECT_EQ(error([&] { ReadRun("no/such/run"); }),
-            "no/such/run: must be the folder of a run");
+            "no/such/run: does not exist, give the folder of a run, not its "
+            "log");
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "log.csv").string() + ": cannot be opened");
   Write(run / "log.csv", "");
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "log.csv").string() + ": has no columns");
   Write(run / "log.csv", "time[s]\n0\n");
+  Write(run / "robot.json", "{\"name\": \"bo");
+  EXPECT_EQ(error([&] { ReadRun(run); }),
+            (run / "robot.json").string() +
+                ": is not a JSON object, may be empty or cut short; run push "
+                "again, or remove this file to see the run without its robot");
+  fs::remove(run / "robot.json");
   EXPECT_EQ(error([&] { WriteReport({run}, run); }),
             run.string() + ": cannot be written");
   EXPECT_EQ(error([&] { WriteReport({}, run / "a.html"); }),
