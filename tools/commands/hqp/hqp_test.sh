@@ -98,7 +98,7 @@ refuse "hqp: /dev/zero: is not a regular file" "$hqp" /dev/zero
 refuse "hqp: gone.json: cannot be read" "$hqp" gone.json
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo good.json
-refuse "hqp: files is required" "$hqp"
+refuse "hqp: files is missing, see --help" "$hqp"
 
 refuse "dynamics: /dev/zero: is not a regular file" \
   "$dynamics" --urdf "$urdf" --states /dev/zero

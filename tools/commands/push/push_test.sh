@@ -199,16 +199,16 @@ refuse_file --scenario ": task set '$(printf 'a%.0s' {1..60})...': is neither $(
 refuse "--force is 'strong', must be a number" --force strong
 refuse "the word after '--force' is empty, must have text" --force ""
 refuse "'--force=' is empty, must have a value" --force= --time 2
-refuse "--time: is nan, must be finite" --time nan
+refuse "--time is nan, must be finite" --time nan
 for seed in 99999999999 -1 1.5 one; do
-  refuse "--seed: is '$seed', must be a whole number from 0 to 4294967295" \
+  refuse "--seed is '$seed', must be a whole number from 0 to 4294967295" \
     --seed "$seed"
 done
 refuse "--force is 1e+09, must be -1e+06 to 1e+06 N" --force 1e9
 refuse "--direction is 400, must be -360 to 360 deg" --direction 400
 refuse "--delay is 0.0005, must be a multiple of the plant's step" \
   --delay 0.0005
-refuse "--plant: mars not in {bullet,mujoco}" --plant mars
+refuse "--plant is 'mars', must be bullet or mujoco" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
 refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 

@@ -50,7 +50,7 @@ CLI::Validator Between(double least, double most, const std::string& unit) {
         value <= most) {
       return "";
     }
-    return "'" + text + "' must be " + PrintNumber(least) + " to " +
+    return "is " + Quoted(text) + ", must be " + PrintNumber(least) + " to " +
            PrintNumber(most) + " " + unit;
   };
   return CLI::Validator(check, "");
