@@ -90,8 +90,13 @@ TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
   EXPECT_EQ(Refusal({"--budget-us", "-1"}),
             "--budget-us is -1, must be 0 to 1e+06 us");
   EXPECT_EQ(Refusal({"--budget-clock"}),
-            "--budget-clock is true without a budget_us, set budget_us as "
-            "well");
+            "--budget-clock is true, must come with --budget-us above 0 us");
+  const std::string clock =
+      TestFile("clock.yaml", "control: {budget_clock: true}\n").string();
+  EXPECT_EQ(Refusal({"--scenario", clock}),
+            clock +
+                ": control.budget_clock is true, must come with "
+                "control.budget_us above 0 us");
 }
 
 // A value in the file may be invalid if an option replaces it.
