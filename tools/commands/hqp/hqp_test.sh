@@ -93,9 +93,9 @@ echo '{"format": "hqp-1", "variables": 1, "levels": [
 refuse "hqp: crossed.json: levels[0].lower[0]: is 2, must not be above $(
   )upper[0], 1" "$hqp" --json good.json crossed.json
 
-refuse "hqp: /tmp: is not a regular file" "$hqp" /tmp
+refuse "hqp: /tmp: cannot be read: Is a directory" "$hqp" /tmp
 refuse "hqp: /dev/zero: is not a regular file" "$hqp" /dev/zero
-refuse "hqp: gone.json: cannot be read" "$hqp" gone.json
+refuse "hqp: gone.json: cannot be read: No such file or directory" "$hqp" gone.json
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo good.json
 refuse "hqp: files is missing, see --help" "$hqp"

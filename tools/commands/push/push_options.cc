@@ -145,7 +145,7 @@ std::filesystem::path FindScenario(const std::string& name) {
     if (std::filesystem::exists(ours, too_long)) return ours;
   }
   std::filesystem::path theirs = UserPath(name);
-  if (std::filesystem::is_regular_file(theirs, too_long)) return theirs;
+  if (std::filesystem::exists(theirs, too_long)) return theirs;
   throw std::invalid_argument("scenario '" + name +
                               "' is unknown, must be a file or one of " +
                               ScenarioNames());

@@ -152,6 +152,7 @@ refuse "scenario 'sneeze' is unknown, must be a file or one of $scenarios" \
   --scenario sneeze
 refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
   --scenario "$gone"
+refuse "$TEST_TMPDIR: cannot be read: Is a directory" --scenario "$TEST_TMPDIR"
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
   )name, duration, seed, chosen_for, start, steps, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
@@ -162,7 +163,7 @@ refuse_file --scenario ": stance[0].step is 'left_foot', must come with steps: o
 refuse_file --scenario ": control.rate is 1000, must evenly divide $(
   )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 
-refuse "$gone: cannot be read" --robot "$gone"
+refuse "$gone: cannot be read: No such file or directory" --robot "$gone"
 refuse_file --robot ":2: an element is not closed, or its end tag has $(
   )another name" \
   cut.urdf '<robot name="a">' '  <link name="b">'
@@ -171,9 +172,9 @@ refuse_file --robot ":3: joint 'j': has no <limit>, must have one" \
   '<!-- A hinge. -->' \
   '<joint name="j" type="revolute"><parent link="b"/><child link="c"/></joint>' \
   '</robot>'
-refuse "$gone: cannot be read" --profile "$gone"
+refuse "$gone: cannot be read: No such file or directory" --profile "$gone"
 
-refuse "$gone: cannot be read" --pushes "$gone"
+refuse "$gone: cannot be read: No such file or directory" --pushes "$gone"
 refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
   )point, impulse_fraction, elsewhere, frame, profile, force, moment, at, duration" \
   pushes.yaml 'pushes:' '  - force: [0, 50, 0]' '    forse: [0, 50, 0]'
