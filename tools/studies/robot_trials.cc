@@ -273,7 +273,8 @@ std::map<std::string, ExpectedRobot> ReadExpected(const fs::path& folder) {
   if (!fs::exists(file, none)) return {};
   std::map<std::string, ExpectedRobot> robots;
   try {
-    const nlohmann::json json = ParseJson(ReadTextFile(file, kMostMiB));
+    const nlohmann::json json =
+        ParseJson(ReadTextFile(file, kMostMiB), file.string());
     if (!json.is_object()) {
       throw std::invalid_argument(
           "must be an object with a key for each robot");

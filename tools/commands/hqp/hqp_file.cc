@@ -208,8 +208,8 @@ ordered_json Rows(const Eigen::Map<const RowMajorMatrix>& matrix) {
 
 }  // namespace
 
-HqpProblem ReadHqp(const std::string& text) {
-  const json file = ParseJson(text);
+HqpProblem ReadHqp(const std::string& text, const std::string& source) {
+  const json file = ParseJson(text, source);
   if (!file.is_object()) Refuse("file", "must be an object");
   const auto format = file.find("format");
   if (format == file.end() || *format != "hqp-1") {
