@@ -38,7 +38,7 @@ std::string Explain(const json::parse_error& error) {
   if (has("invalid number")) return "a number is malformed";
   const size_t token = said.find("unexpected ");
   if (token == std::string::npos) {
-    return "must be a number, a text in quotation marks, true, false or null";
+    return "a word has no quotation marks and is not true, false or null";
   }
   std::string words = said.substr(token);
   const std::string expected = "; expected ";
@@ -87,6 +87,13 @@ json ParseJson(std::string_view text, const std::string& source) {
     RefuseAt(text, std::min(text.find(number), text.size()), source,
              "number is " + Quoted(number) + ", which is too large");
   }
+}
+
+std::string ShowJson(const json& value) {
+  constexpr size_t kMost = 40;
+  const std::string text =
+      value.dump(-1, ' ', true, json::error_handler_t::replace);
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
 }
 
 }  // namespace poise

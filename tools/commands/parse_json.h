@@ -17,4 +17,7 @@ namespace poise {
 /// @param source  the name of the text in messages.
 nlohmann::json ParseJson(std::string_view text, const std::string& source);
 
+/// Returns a value for a message of one line. A long one is cut.
+std::string ShowJson(const nlohmann::json& value);
+
 }  // namespace poise

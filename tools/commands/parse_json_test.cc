@@ -60,8 +60,7 @@ TEST(ParseJson, NamesLineAndColumnInPlainWords) {
             "a.json:2:1: " + start + "unexpected ']', must be end of input");
   EXPECT_EQ(Refusal("[1,\n  nan]"),
             "a.json:2:4: " + start +
-                "must be a number, a text in quotation marks, true, false or "
-                "null");
+                "a word has no quotation marks and is not true, false or null");
   EXPECT_EQ(Refusal("{\n\"a\": 1"),
             "a.json:2:6: " + start + "the file ends too early");
   EXPECT_EQ(Refusal("[\"a]"), "a.json:1:4: " + start +
