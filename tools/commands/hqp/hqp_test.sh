@@ -121,5 +121,8 @@ echo '{"joints": ["hinge"], "states": []}' > states.json
   )(link 'tip' and beyond), M is singular or indefinite: $(
   )no acceleration can be computed" ] ||
   fail "dynamics prints for a leaf without mass: $(cat error)"
+echo '[]' > list.json
+refuse "dynamics: list.json: is [], must be an object with the keys joints and states" \
+  "$dynamics" --urdf leaf.urdf --states list.json
 refuse "dynamics: good.json: document: has no key 'joints'" \
   "$dynamics" --urdf leaf.urdf --states good.json
