@@ -22,6 +22,7 @@
 #include "poise/robot/urdf/urdf.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
+#include "poise/sim/yaml_fields.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/push/overrides.h"
@@ -119,7 +120,14 @@ std::string Blame(const InputError& error, const Overrides& o,
     is_by_option |= !OptionOf(field, o, sources).empty();
   }
   const std::string file = FileOf(error.field(), sources);
-  return (is_by_option || file.empty() ? "" : file + ": ") + error.Say(name);
+  if (is_by_option || file.empty()) return error.Say(name);
+  int line = 0;
+  if (file != sources.robot) {  // A URDF file is not YAML.
+    line = LineOf(file, error.field());
+    if (line == 0 && !error.other().empty()) line = LineOf(file, error.other());
+  }
+  return file + ":" + (line > 0 ? std::to_string(line) + ":" : "") + " " +
+         error.Say(name);
 }
 
 // Returns the names of Poise's scenarios in alphabetical order.

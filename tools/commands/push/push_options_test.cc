@@ -50,12 +50,13 @@ TEST(PushOptions, NamesTheFileOfAnInvalidValue) {
           .string();
   EXPECT_EQ(
       Refusal({"--pushes", pushes}),
-      pushes + ": link 'nose' is unknown, must be a link of robot 'humanoid'");
+      pushes +
+          ":1: link 'nose' is unknown, must be a link of robot 'humanoid'");
   const std::string scenario =
       TestFile("rates.yaml", "control: {rate: 300}\n").string();
   EXPECT_EQ(Refusal({"--scenario", scenario}),
             scenario +
-                ": control.rate is 300, must evenly divide plant.rate, "
+                ":1: control.rate is 300, must evenly divide plant.rate, "
                 "which is 1000");
 }
 
@@ -68,7 +69,7 @@ TEST(PushOptions, DistinguishesTasksOfFileAndOptions) {
       "task 'frame.nose' is unknown, must be frame.LINK with a link of the "
       "robot";
   EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "zmp"}),
-            scenario + ": " + unknown);
+            scenario + ":1: " + unknown);
   EXPECT_EQ(Refusal({"--with", "frame.nose"}), unknown);
 }
 
@@ -95,7 +96,7 @@ TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
       TestFile("clock.yaml", "control: {budget_clock: true}\n").string();
   EXPECT_EQ(Refusal({"--scenario", clock}),
             clock +
-                ": control.budget_clock is true, must come with "
+                ":1: control.budget_clock is true, must come with "
                 "control.budget_us above 0 us");
 }
 

@@ -158,9 +158,9 @@ refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
 refuse_file --scenario ":1: 'to' is the list '[1]', must be two numbers [x, y] from -1000 to $(
   )1000 m" to.yaml 'stance: [{at: 1, step: left_foot, to: [1]}]'
-refuse_file --scenario ": stance[0].step is 'left_foot', must come with steps: on" \
+refuse_file --scenario ":1: stance[0].step is 'left_foot', must come with steps: on" \
   step.yaml 'stance: [{at: 1, step: left_foot, to: [0, 0.1]}]'
-refuse_file --scenario ": control.rate is 1000, must evenly divide $(
+refuse_file --scenario ":1: control.rate is 1000, must evenly divide $(
   )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 
 refuse "$gone: cannot be read: No such file or directory" --robot "$gone"
@@ -181,19 +181,19 @@ refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
 refuse_file --pushes ":2: 'force' is the list '[0, fifty, 0]', must be a list of finite numbers" \
   pushes.yaml 'pushes:' '  - force: [0, fifty, 0]'
 nose="link 'nose' is unknown, must be a link of robot 'humanoid'"
-refuse_file --pushes ": $nose" pushes.yaml 'pushes: [{link: nose}]'
+refuse_file --pushes ":1: $nose" pushes.yaml 'pushes: [{link: nose}]'
 
 # If a file does not match the robot, the message names the file, and nothing is
 # written.
-refuse_file --scenario ": $nose" link.yaml 'pushes: [{link: nose}]'
-refuse_file --scenario ": task set 'nope': is neither default, paper, nor a file" \
+refuse_file --scenario ":1: $nose" link.yaml 'pushes: [{link: nose}]'
+refuse_file --scenario ":1: task set 'nope': is neither default, paper, nor a file" \
   tasks.yaml 'tasks: {set: nope}'
-refuse_file --scenario ": stance: foot 'nope' is unknown, must be a foot of $(
+refuse_file --scenario ":1: stance: foot 'nope' is unknown, must be a foot of $(
   )robot 'humanoid': left_foot, right_foot" stance.yaml 'stance: [{at: 1, lift: nope}]'
-refuse_file --scenario ": plant: restitution is 0.500000, must be 0 in a MuJoCo $(
+refuse_file --scenario ":1: plant: restitution is 0.500000, must be 0 in a MuJoCo $(
   )plant" \
   bounce.yaml 'plant: {kind: mujoco, restitution: 0.5}'
-refuse_file --scenario ": task set '$(printf 'a%.0s' {1..60})...': is neither $(
+refuse_file --scenario ":1: task set '$(printf 'a%.0s' {1..60})...': is neither $(
   )default, paper, nor a file" \
   long.yaml "tasks: {set: $(printf 'a%.0s' {1..300000})}"
 
@@ -218,7 +218,7 @@ refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 frame="task 'frame.nose' is unknown, must be frame.LINK with a link of the robot"
 refuse "$frame" --with frame.nose
 refuse_file --tasks ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
-refuse_file --scenario ": $frame" frames.yaml 'tasks: {with: [frame.nose]}'
+refuse_file --scenario ":1: $frame" frames.yaml 'tasks: {with: [frame.nose]}'
 refuse_file --profile ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
 
 # Usage: residuals OPTION...: prints the links of the tasks frame.LINK in the log of
