@@ -7,6 +7,7 @@
 #include <iostream>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "poise/robot/finding.h"
@@ -178,6 +179,25 @@ std::string RefuseNoFlag(std::string& text) {
   }
 }
 
+// Rejects an empty entry of a list, as in a,,b. CLI11 would leave it out.
+void RefuseEmptyEntries(const CLI::App& app, int argc, char** argv) {
+  std::string name;
+  for (int i = 1; i < argc; ++i) {
+    std::string value = argv[i];
+    if (value.rfind("--", 0) == 0) {
+      std::tie(name, value) = SplitFirst(value, "=");
+    }
+    const CLI::Option* const option = app.get_option_no_throw(name);
+    if (option == nullptr || option->get_delimiter() == '\0') continue;
+    if (value.find(std::string(2, option->get_delimiter())) ==
+        std::string::npos) {
+      continue;
+    }
+    throw std::invalid_argument(name + " is " + Quoted(value) +
+                                ", must have text between commas");
+  }
+}
+
 struct Help {
   std::string text;
 };
@@ -197,6 +217,7 @@ void ParseCommandLine(int argc, char** argv, CLI::App* app) {
                                   " is empty, must have a value");
     }
   }
+  RefuseEmptyEntries(*app, argc, argv);
   for (CLI::Option* option : app->get_options()) {
     if (IsFlag(*option)) option->check(CLI::Validator(RefuseNoFlag, ""));
   }
