@@ -100,6 +100,17 @@ TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
                 "control.budget_us above 0 us");
 }
 
+TEST(PushOptions, RefusesOptionsWithoutEffect) {
+  EXPECT_EQ(Refusal({"--with", "zmp,cop", "--without", "yaw,cop"}),
+            "task 'cop' is in --with and in --without, must be in one of them");
+  const std::string scenario =
+      TestFile("off.yaml", "tasks: {without: [cop]}\n").string();
+  EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "cop"}), "");
+  EXPECT_EQ(Refusal({"--freeze", "1.05,0"}),
+            "--freeze is 1.05,0, must be AT,FOR with FOR above 0 s");
+  EXPECT_EQ(Refusal({"--freeze", "1.05,0.1"}), "");
+}
+
 // A value in the file may be invalid if an option replaces it.
 TEST(PushOptions, ValidatesOnlyTheFinalSettings) {
   const std::string scenario =

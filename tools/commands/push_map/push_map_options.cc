@@ -12,6 +12,7 @@
 #include "poise/robot/finding.h"
 #include "poise/sim/experiment.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push/overrides.h"
 #include "poise/tools/commands/push/push_options.h"
 #include "poise/tools/commands/push/warnings.h"
 #include "poise/tools/commands/user_path.h"
@@ -147,6 +148,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   app.add_flag("--json", json, "print the map as JSON");
   ParseCommandLine(argc, argv, &app);
 
+  RefuseBoth(with, without);
   const Shard shard = ParseShard(shard_text);
   if (steps && step_option->count() == 0) step = 0.5;
   const std::vector<std::string> rest = app.remaining();
