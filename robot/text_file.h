@@ -9,7 +9,8 @@
 namespace poise {
 
 /// Reads a text file of at most `most_mib` MiB. Throws Refusal if the file
-/// cannot be read, is larger, or is not a regular file: a pipe might never end.
+/// cannot be read, with the system's reason, is larger, or is not a regular
+/// file: a pipe might never end.
 std::string ReadTextFile(const std::filesystem::path& file, size_t most_mib);
 
 /// Throws Refusal if the text contains a zero byte, because the file is then

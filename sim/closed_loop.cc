@@ -84,9 +84,9 @@ std::unique_ptr<Controller> MakeController(
   options.weighted = settings.weighted;
   options.drag_compensation = settings.drag_compensation;
   if (settings.budget_clock && settings.budget_us == 0) {
-    throw InputError::OfValue(
-        "control.budget_clock",
-        " is true without a budget_us, set budget_us as well");
+    throw InputError::OfValue("control.budget_clock",
+                              " is true, must come with ", "control.budget_us",
+                              " above 0 us");
   }
   if (settings.budget_clock) {
     options.max_seconds = 1e-6 * settings.budget_us;

@@ -165,6 +165,9 @@ void ReadPlant(YamlFields fields, Scenario* scenario) {
         {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
     board.Read(Fields(&plant.ground.boards.back()));
     board.Finish();
+    if (!board.Has("size")) {
+      board.Refuse("size", "must be a list of 3 numbers, m");
+    }
   }
   plant.joint_limits = fields.Flag("joint_limits", plant.joint_limits);
   plant.joint_damping = fields.Flag("joint_damping", plant.joint_damping);
@@ -314,7 +317,11 @@ Scenario LoadScenario(const std::filesystem::path& file) {
   try {
     Validate(scenario);
   } catch (const InputError& error) {
-    throw InputError(error.field(), file.string() + ": " + error.what());
+    const int line = LineOf(file.string(), error.field());
+    throw InputError(error.field(),
+                     file.string() + ":" +
+                         (line > 0 ? std::to_string(line) + ":" : "") + " " +
+                         error.what());
   }
   return scenario;
 }

@@ -7,6 +7,8 @@
 
 #include "poise/sim/scenario.h"
 #include "poise/sim/scenario_fixture.h"
+#include "poise/sim/yaml_fields.h"
+#include "poise/tests/util/test_file.h"
 
 namespace poise {
 namespace {
@@ -17,10 +19,34 @@ TEST(Scenario, RefusesAFractionWithoutAHorizontalForce) {
        {"impulse_fraction: 0.4", "force: [0, 1, 2], elsewhere: 0.4",
         "force: [1, 0, 0], frame: link, impulse_fraction: 0.4",
         "force: [1, 0, 0], moment: [0, 0, 1], impulse_fraction: 0.4"}) {
-    EXPECT_EQ(Complaint("pushes: [{" + std::string(push) + "}]"),
-              "trial.yaml: a fraction of the bound must come with a horizontal "
-              "force, without moment, in the frame world")
+    EXPECT_EQ(
+        Complaint("pushes: [{" + std::string(push) + "}]"),
+        "trial.yaml:1: a fraction of the bound must come with a horizontal "
+        "force, without moment, in the frame world")
         << push;
+  }
+}
+
+TEST(Scenario, RejectsABoardWithoutSizeWithItsLine) {
+  EXPECT_EQ(Complaint("plant:\n  boards:\n    - {size: [1, 1, 1]}\n"
+                      "    - {yaw: 1}\n"),
+            "trial.yaml:4: 'size' is missing, must be a list of 3 numbers, m");
+}
+
+TEST(LineOf, FollowsKeysAndIndices) {
+  const std::string file =
+      TestFile("lines.yaml",
+               "duration: 2\npushes:\n  - {at: 1}\n  - at: 2\n"
+               "    link: nose\ntasks: {with: [zmp, cop,\n  nope]}\n")
+          .string();
+  EXPECT_EQ(LineOf(file, "duration"), 1);
+  EXPECT_EQ(LineOf(file, "pushes[0]"), 3);
+  EXPECT_EQ(LineOf(file, "pushes[1].link"), 5);
+  EXPECT_EQ(LineOf(file, "tasks.with[2]"), 7);
+  for (const std::string absent :
+       {"plant", "plant.rate", "pushes[2].link", "pushes[0].link",
+        "duration.link", "duration[0]", "tasks[0]", "tasks.with.set"}) {
+    EXPECT_EQ(LineOf(file, absent), 0) << absent;
   }
 }
 
@@ -94,11 +120,12 @@ TEST(Scenario, RejectsAKeyOfAnotherStanceAction) {
 }
 
 TEST(Scenario, RejectsContradictoryStanceEntries) {
-  EXPECT_EQ(Complaint("stance:\n"
-                      "- {at: 1, lift: right_foot}\n"
-                      "- {at: 0.5, put_down: right_foot}\n"),
-            "trial.yaml: stance[1].at is 0.5, must be at least 1, the time of "
-            "the entry before: entries must be in order of time");
+  EXPECT_EQ(
+      Complaint("stance:\n"
+                "- {at: 1, lift: right_foot}\n"
+                "- {at: 0.5, put_down: right_foot}\n"),
+      "trial.yaml:3: stance[1].at is 0.5, must be at least 1, the time of "
+      "the entry before: entries must be in order of time");
   EXPECT_EQ(
       Complaint("stance:\n- {at: 1, shift: middle, lift: left_foot}\n"),
       "trial.yaml:2: 'lift' is 'left_foot', must not be in one entry with "
@@ -110,10 +137,10 @@ TEST(Scenario, RejectsContradictoryStanceEntries) {
             "trial.yaml:1: 'lift' is 'a', must not be in one entry with "
             "put_down: write two entries");
   EXPECT_EQ(Complaint("stance:\n- {at: 1, lift: a}\n- {at: 2, lift: b}\n"),
-            "trial.yaml: stance[1].lift is 'b', must come after 'a' is put "
+            "trial.yaml:3: stance[1].lift is 'b', must come after 'a' is put "
             "down: one foot is lifted at a time");
   EXPECT_EQ(Complaint("stance: [{at: 1, put_down: a}]\n"),
-            "trial.yaml: stance[0].put_down is 'a', must be a foot that is "
+            "trial.yaml:1: stance[0].put_down is 'a', must be a foot that is "
             "lifted");
   EXPECT_EQ(Complaint("stance:\n"
                       "- {at: 1, lift: a}\n- {at: 1, put_down: a}\n"
@@ -221,23 +248,23 @@ TEST(Scenario, RejectsNumbersOutOfRangeWithTheirLine) {
 
 TEST(Scenario, RejectsIncompatibleNumbers) {
   const auto whole_part = [](const std::string& rate) {
-    return "trial.yaml: control.rate is " + rate +
+    return "trial.yaml:1: control.rate is " + rate +
            ", must evenly divide plant.rate, which is 1000";
   };
   EXPECT_EQ(Complaint("control: {rate: 300}\n"), whole_part("300"));
   EXPECT_EQ(Complaint("control: {rate: 2000}\n"), whole_part("2000"));
   EXPECT_EQ(Complaint("control: {rate: 250}\n"), "none");
   const std::string times =
-      "trial.yaml: control.rate is 10, must be at least a thousandth of "
+      "trial.yaml:1: control.rate is 10, must be at least a thousandth of "
       "plant.rate, which is 20000";
   EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 10000}}"), "none");
   EXPECT_EQ(Complaint("{control: {rate: 10}, plant: {rate: 20000}}"), times);
   EXPECT_EQ(Complaint("control: {delay: 0.0015}\n"),
-            "trial.yaml: control.delay is 0.0015, must be a multiple of the "
+            "trial.yaml:1: control.delay is 0.0015, must be a multiple of the "
             "plant's step");
   EXPECT_EQ(Complaint("{duration: 10000, control: {rate: 100000}, "
                       "plant: {rate: 100000}}"),
-            "trial.yaml: duration is 10000, must be at most 1e8 control "
+            "trial.yaml:1: duration is 10000, must be at most 1e8 control "
             "ticks");
 }
 

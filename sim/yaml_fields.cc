@@ -2,6 +2,7 @@
 #include "poise/sim/yaml_fields.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "poise/robot/finding.h"
@@ -144,6 +145,23 @@ void YamlFields::Finish() const {
 
 YamlFields ReadYaml(const std::string& file) {
   return YamlFields(LoadYaml(file), file);
+}
+
+int LineOf(const std::string& file, const std::string& field) {
+  YAML::Node node = LoadYaml(file);
+  for (std::size_t at = 0; at < field.size();) {
+    const bool is_index = field[at] == '[';
+    const std::size_t start = at + (is_index || field[at] == '.' ? 1 : 0);
+    const std::size_t end = std::min(
+        field.find_first_of(is_index ? "]" : ".[", start), field.size());
+    const std::string part = field.substr(start, end - start);
+    at = end + (is_index ? 1 : 0);
+    if (is_index ? !node.IsSequence() : !node.IsMap()) return 0;
+    const YAML::Node child = is_index ? node[std::stoul(part)] : node[part];
+    if (!child) return 0;
+    node.reset(child);
+  }
+  return node.Mark().line + 1;
 }
 
 }  // namespace poise

@@ -55,4 +55,10 @@ class YamlFields {
 /// text is not valid YAML, the line.
 YamlFields ReadYaml(const std::string& file);
 
+/// Returns the line of a field in a YAML file, or 0 if the file does not have
+/// the field. Throws as ReadYaml().
+///
+/// @param field  the path of the field: "pushes[2].link", see InputError.
+int LineOf(const std::string& file, const std::string& field);
+
 }  // namespace poise

@@ -6,6 +6,7 @@
 // order.
 //   bazel run //tests:hqp_night -- --problems 100000 --seed 1 --out DIR
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -79,52 +80,65 @@ void Report(const Night& night, std::uint64_t seed,
             << "\n  bazel run //tools:hqp --" << files << std::endl;
 }
 
+// Adds the options about the hierarchies.
+void AddHierarchyOptions(CLI::App* app, Night* night) {
+  constexpr int kMost = 1000;  // Rows, columns, levels or ticks.
+  app->add_option("--variables", night->options.max_variables,
+                  "Largest number of variables")
+      ->check(CLI::Range(1, kMost));
+  app->add_option("--levels", night->options.max_levels,
+                  "Largest number of levels")
+      ->check(CLI::Range(1, kMost));
+  app->add_option("--equalities", night->options.max_equalities,
+                  "Largest number of equality rows of a level")
+      ->check(CLI::Range(0, kMost));
+  app->add_option("--inequalities", night->options.max_inequalities,
+                  "Largest number of inequality rows of a level")
+      ->check(CLI::Range(0, kMost));
+  app->add_option("--degenerate", night->options.degenerate,
+                  "Percentage of rows that are zero or depend on other rows");
+  app->add_option("--planted", night->options.planted,
+                  "Percentage of rows that meet in one point");
+  app->add_option("--scaled", night->options.scaled,
+                  "Percentage of hierarchies with rows scaled by 1e-3 to 1e6");
+  app->add_option("--weighted", night->options.weighted,
+                  "Percentage of hierarchies with weights of many sizes");
+  app->add_option(
+      "--decades", night->options.decades,
+      "The weights of --weighted are from 1e-decades to 1e+decades");
+  app->add_option("--degenerate-vertex", night->options.degenerate_vertex,
+                  "Percentage of hierarchies whose bounds are all zero");
+  app->add_option(
+      "--integer", night->options.integer,
+      "Percentage of hierarchies of small integers whose rows meet in a point "
+      "where many coordinates are 0");
+  app->add_option(
+      "--columns", night->options.columns,
+      "Percentage of hierarchies with variables in units from 1e-3 to 1e6");
+  app->add_option("--bounds", night->options.bounds,
+                  "Percentage of inequalities that bound one variable");
+  app->add_option(
+         "--ticks", night->ticks,
+         "Number of ticks that one solver solves while its hierarchy changes")
+      ->check(CLI::Range(1, kMost));
+  app->add_option(
+      "--selecting", night->options.selecting,
+      "Percentage of hierarchies whose last levels only select variables");
+}
+
 int Main(int argc, char** argv) {
   Night night;
   CLI::App app("Compares the two solvers on random hierarchies.", "hqp_night");
   app.option_defaults()->always_capture_default();
-  app.add_option("--problems", night.problems, "Number of hierarchies to draw");
+  app.add_option("--problems", night.problems, "Number of hierarchies to draw")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}));
   app.add_option("--seed", night.seed,
                  "Seed of the first hierarchy; each further one adds 1");
   app.add_option("--out", night.out, "Folder for the files of failures");
   app.add_option(
       "--tolerance", night.tolerance,
       "Largest relative error; with 0 rounding errors count as failures");
-  app.add_option("--variables", night.options.max_variables,
-                 "Largest number of variables");
-  app.add_option("--levels", night.options.max_levels,
-                 "Largest number of levels");
-  app.add_option("--equalities", night.options.max_equalities,
-                 "Largest number of equality rows of a level");
-  app.add_option("--inequalities", night.options.max_inequalities,
-                 "Largest number of inequality rows of a level");
-  app.add_option("--degenerate", night.options.degenerate,
-                 "Percentage of rows that are zero or depend on other rows");
-  app.add_option("--planted", night.options.planted,
-                 "Percentage of rows that meet in one point");
-  app.add_option("--scaled", night.options.scaled,
-                 "Percentage of hierarchies with rows scaled by 1e-3 to 1e6");
-  app.add_option("--weighted", night.options.weighted,
-                 "Percentage of hierarchies with weights of many sizes");
-  app.add_option("--decades", night.options.decades,
-                 "The weights of --weighted are from 1e-decades to 1e+decades");
-  app.add_option("--degenerate-vertex", night.options.degenerate_vertex,
-                 "Percentage of hierarchies whose bounds are all zero");
-  app.add_option(
-      "--integer", night.options.integer,
-      "Percentage of hierarchies of small integers whose rows meet in a point "
-      "where many coordinates are 0");
-  app.add_option(
-      "--columns", night.options.columns,
-      "Percentage of hierarchies with variables in units from 1e-3 to 1e6");
-  app.add_option("--bounds", night.options.bounds,
-                 "Percentage of inequalities that bound one variable");
-  app.add_option(
-      "--ticks", night.ticks,
-      "Number of ticks that one solver solves while its hierarchy changes");
-  app.add_option(
-      "--selecting", night.options.selecting,
-      "Percentage of hierarchies whose last levels only select variables");
+  AddHierarchyOptions(&app, &night);
   ParseCommandLine(argc, argv, &app);
   std::uint64_t failures = 0;
   for (std::uint64_t i = 0; i < night.problems; ++i) {

@@ -71,7 +71,7 @@ int Main(int argc, char** argv) {
                        : WriteTable(diagnosis, masses));
     if (!saved.empty()) Save(diagnosis, saved);
     if (diagnosis.worst() != Severity::kReject) return 0;
-    std::cerr << Message(file, diagnosis.findings[0]) << "\n";
+    std::cerr << "doctor: " << Message(file, diagnosis.findings[0]) << "\n";
   } catch (const Refusal& refusal) {  // The profile is invalid.
     Diagnosis diagnosis;
     diagnosis.findings.push_back(refusal.finding());
@@ -79,7 +79,7 @@ int Main(int argc, char** argv) {
     where =
         "profile " + Quoted(profile_file) + (where.empty() ? "" : " ") + where;
     if (json) std::cout << WriteJson(diagnosis) << "\n";
-    std::cerr << refusal.what() << "\n";
+    std::cerr << "doctor: " << refusal.what() << "\n";
   }
   return 2;
 }

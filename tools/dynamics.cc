@@ -54,9 +54,11 @@ int Main(int argc, char** argv) {
   const std::string text = ReadTextFile(UserPath(states), kMostMib);
   try {
     const nlohmann::json result =
-        ComputeDynamics(robot.tree, ParseJson(text), frames);
+        ComputeDynamics(robot.tree, ParseJson(text, states), frames);
     std::cout << (json ? result.dump() + "\n"
                        : FormatDynamics(robot.tree, result));
+  } catch (const Refusal&) {  // Already names the file.
+    throw;
   } catch (const std::exception& error) {
     throw std::invalid_argument(states + ": " + error.what());
   }

@@ -14,8 +14,8 @@
 
 #include "poise/robot/profile/profile.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/output_folder.h"
 #include "poise/tools/commands/push/record_run.h"
-#include "poise/tools/commands/user_path.h"
 #include "poise/tools/studies/figures_draw.h"
 #include "poise/tools/studies/step_pictures.h"
 
@@ -63,8 +63,8 @@ int Main(int argc, char** argv) {
                  "Folder for results.md and figures/ [docs/generated]");
   app.add_flag("--keep-runs", keep_runs, "Keep the runs, in OUT/figure-runs");
   ParseCommandLine(argc, argv, &app);
-  const fs::path folder = out.empty() ? DocsFolder() : UserPath(out);
-  fs::create_directories(folder);
+  const fs::path folder =
+      MakeOutputFolder(out.empty() ? DocsFolder().string() : out);
   const Robot robot = LoadRobot("robot/models/humanoid.urdf",
                                 LoadProfile("robot/profiles/humanoid.yaml"));
   const fs::path runs = folder / "figure-runs";

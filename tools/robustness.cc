@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/output_folder.h"
 #include "poise/tools/commands/package_path.h"
 #include "poise/tools/commands/user_path.h"
 #include "poise/tools/studies/robot_trials.h"
@@ -73,6 +75,8 @@ struct RobotOptions {
 };
 
 int TryRobots(const RobotOptions& options, const std::string& only) {
+  std::filesystem::path page;
+  if (!options.out.empty()) page = MakeOutputFolder(options.out);
   const RobotFolder robots{UserPath(options.folder),
                            PackageFolders(options.packages), only};
   // The head follows the first run, so that a refused folder prints nothing.
@@ -84,7 +88,7 @@ int TryRobots(const RobotOptions& options, const std::string& only) {
     std::cout << RobotRow(trial, false) << std::endl;
   };
   const std::vector<RobotTrial> trials = RunRobots(robots, show);
-  if (!options.out.empty()) WriteRobotsPage(trials, UserPath(options.out));
+  if (!page.empty()) WriteRobotsPage(trials, page);
   const std::ptrdiff_t kept = std::count_if(
       trials.begin(), trials.end(),
       [](const RobotTrial& trial) { return trial.faults.empty(); });

@@ -205,6 +205,42 @@ TEST(FindFeet, TakesTheVisualShapesIfTheCollisionShapesHaveNoSole) {
   EXPECT_NE(findings[0].what.find("is estimated"), std::string::npos);
 }
 
+// The other shapes of a foot with a missing mesh may be much smaller than the
+// foot, such as the decoration of an ankle.
+TEST(FindFeet, WarnsOfASoleWithoutTheMeshOfTheFoot) {
+  const std::string missing = Collision("mesh filename='no.stl'", "0 0 0");
+  const std::string shape = Collision("box size='0.2 0.1 0.02'", "0.03 0 0");
+  const auto seen = [](std::string collision) {
+    for (size_t at; (at = collision.find("collision")) != std::string::npos;) {
+      collision.replace(at, 9, "visual");
+    }
+    return collision;
+  };
+  const auto warning = [](const std::string& shapes) {
+    std::vector<Finding> findings;
+    Find(Biped(shapes, "0 0 0"), &findings);
+    for (const Finding& finding : findings) {
+      if (finding.why.find("no.stl") != std::string::npos) {
+        return finding.where + " " + finding.what;
+      }
+    }
+    return std::string("none");
+  };
+  const std::string expected =
+      "sole of link 'l6' is 0.2 x 0.1 m without a mesh of the foot";
+  EXPECT_EQ(warning(missing + shape), expected);
+  EXPECT_EQ(warning(missing + seen(shape)), expected);
+  EXPECT_EQ(warning(seen(missing + shape)), expected);
+  const std::string sphere = Collision("sphere radius='0.02'", "0 0 -0.03");
+  EXPECT_EQ(warning(sphere + seen(missing + shape)), expected);
+  EXPECT_EQ(warning(sphere + missing + seen(shape)), expected);
+  // The visual shapes are not used, so none is missed.
+  EXPECT_EQ(warning(shape + seen(missing)), "none");
+  // The estimate is for want of the mesh, not of a flat underside.
+  EXPECT_NE(warning(sphere + seen(missing)).find("is estimated"),
+            std::string::npos);
+}
+
 TEST(FindFeet, FindsTheEndOfACylinder) {
   const auto feet = Find(Biped(
       Collision("cylinder radius='0.1' length='0.04'", "0 0 -0.02"), "0 0 0"));

@@ -140,6 +140,26 @@ void CheckSize(const RobotModel& model, const Foot& foot, double leg,
   }
 }
 
+// Warns if a mesh of the foot is not part of the sole, because the other shapes
+// may be much smaller than the foot.
+void CheckMesh(const RobotModel& model, const Foot& foot,
+               const Outline& outline, std::vector<Finding>* findings) {
+  if (outline.mesh_refusal.empty()) return;
+  const TurnedRectangle sole = SurroundingRectangle(foot.polygon_C);
+  Warn(findings, "sole of link " + Quoted(LinkOf(model, foot.body)),
+       "is " + PrintNumber(2 * sole.half_size.x()) + " x " +
+           PrintNumber(2 * sole.half_size.y()) +
+           " m without a mesh of the foot",
+       WhyWithoutMesh(outline));
+}
+
+// Keeps why a mesh is not read if the outline of other shapes replaces this one.
+void KeepRefusal(const Outline& from, Outline* to) {
+  if (from.mesh_refusal.empty()) return;
+  to->mesh_refusal = from.mesh_refusal;
+  to->mesh_is_missing = from.mesh_is_missing;
+}
+
 // Returns the sole of a foot. If the collision shapes have none, uses the visual
 // shapes: a foot may have one sphere for collisions. A short underside of the
 // visual shapes is no sole, but the end of a leg with a point foot.
@@ -147,7 +167,7 @@ Sole FindSoleOf(const RobotModel& model, int body, const Vector3d& up_B,
                 double leg, Outline* outline) {
   const Sole sole = FindSole(*outline, up_B, leg);
   if (!sole.points_B.empty() || outline->corners.empty()) return sole;
-  const Outline visual = MakeVisualOutline(model, body);
+  Outline visual = MakeVisualOutline(model, body);
   const Sole seen = FindSole(visual, up_B, leg);
   double length = 0;
   for (const Vector3d& a : seen.points_B) {
@@ -155,7 +175,9 @@ Sole FindSoleOf(const RobotModel& model, int body, const Vector3d& up_B,
       length = std::max(length, (a - b).norm());
     }
   }
-  if (length < kShortSole * leg) return sole;
+  const bool is_short = length < kShortSole * leg;
+  KeepRefusal(is_short ? visual : *outline, is_short ? outline : &visual);
+  if (is_short) return sole;
   *outline = visual;
   return seen;
 }
@@ -214,6 +236,7 @@ std::vector<Foot> FindFeet(const RobotModel& model,
     }
     foot->source = sole.source;
     CheckSize(model, *foot, leg, findings);
+    if (!is_guess) CheckMesh(model, *foot, outlines[body], findings);
     feet.push_back(*std::move(foot));
   }
   return feet;

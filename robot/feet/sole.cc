@@ -187,21 +187,23 @@ Sole EstimateSole(const RobotModel& model, int body, const Vector3d& up_B,
   return sole;
 }
 
-std::string WhyEstimated(const Outline& outline) {
-  if (!outline.mesh_refusal.empty()) {
-    const std::string sole = "the sole in a profile";
-    if (!outline.mesh_is_missing) {
-      return "because " + outline.mesh_refusal +
-             "; correct the mesh, or give " + sole;
-    }
-    const bool is_of_package =
-        outline.mesh_refusal.find("package://") != std::string::npos;
-    return "because " + outline.mesh_refusal +
-           (is_of_package ? ": give --package-path DIR, in Python "
-                            "packages=[DIR], or " +
-                                sole
-                          : ": put the file there, or give " + sole);
+std::string WhyWithoutMesh(const Outline& outline) {
+  const std::string sole = "the sole in a profile";
+  if (!outline.mesh_is_missing) {
+    return "because " + outline.mesh_refusal + "; correct the mesh, or give " +
+           sole;
   }
+  const bool is_of_package =
+      outline.mesh_refusal.find("package://") != std::string::npos;
+  return "because " + outline.mesh_refusal +
+         (is_of_package ? ": give --package-path DIR, in Python "
+                          "packages=[DIR], or " +
+                              sole
+                        : ": put the file there, or give " + sole);
+}
+
+std::string WhyEstimated(const Outline& outline) {
+  if (!outline.mesh_refusal.empty()) return WhyWithoutMesh(outline);
   const std::string remedy = ": give the sole in a profile";
   if (outline.corners.empty()) {
     return "because the foot has no shape" + remedy;

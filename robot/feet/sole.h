@@ -47,6 +47,12 @@ Sole EstimateSole(const RobotModel& model, int body,
                   const Eigen::Vector3d& up_B, const Eigen::Vector3d& forward_B,
                   const Eigen::Vector3d& p_BA_B, double leg);
 
+/// Returns why a mesh of the body is not read, and the remedy, as part of a
+/// warning: "because mesh a.stl: is missing, ..."
+///
+/// @pre outline.mesh_refusal is not empty.
+std::string WhyWithoutMesh(const Outline& outline);
+
 /// Returns the reason for an estimate, as part of a warning: "because mesh
 /// a.stl: is missing, ...", or the shapes that have no flat underside.
 std::string WhyEstimated(const Outline& outline);

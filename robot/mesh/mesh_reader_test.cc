@@ -167,7 +167,8 @@ TEST(MeshReader, RefusesWhatIsNoFile) {
   // The first byte of this regular file cannot be read.
   std::filesystem::remove(folder / "memory.stl");
   std::filesystem::create_symlink("/proc/self/mem", folder / "memory.stl");
-  EXPECT_EQ(Refusal("memory.stl"), "memory.stl: cannot be read");
+  EXPECT_EQ(Refusal("memory.stl"),
+            "memory.stl: cannot be read: Input/output error");
 }
 
 TEST(MeshReader, SaysThatAssimpCannotReadAFile) {

@@ -111,8 +111,9 @@ TEST(LoadYaml, RejectsMissingSpecialAndLargeFiles) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal("no/such.yaml"), "no/such.yaml: cannot be read");
-  EXPECT_EQ(refusal(folder), folder + ": is not a regular file");
+  EXPECT_EQ(refusal("no/such.yaml"),
+            "no/such.yaml: cannot be read: No such file or directory");
+  EXPECT_EQ(refusal(folder), folder + ": cannot be read: Is a directory");
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is not a regular file");
   const std::string pipe = folder + "/pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

@@ -724,8 +724,10 @@ TEST(LoadUrdf, NamesAFileThatCannotBeRead) {
       ADD_FAILURE() << file;
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(),
-                file + (file == "no/such.urdf" ? ": cannot be read"
-                                               : ": is not a regular file"));
+                file + (file == "no/such.urdf"
+                            ? ": cannot be read: No such file or directory"
+                        : file == "/" ? ": cannot be read: Is a directory"
+                                      : ": is not a regular file"));
     }
   }
 }

@@ -156,11 +156,15 @@ std::string PushLines(const Robot& robot, const Scenario& scenario) {
   constexpr int kMostLines = 5;
   std::vector<const Push*> shown;
   bool is_late = !scenario.pushes.empty();
+  bool is_zero = is_late;
   for (const Push& push : scenario.pushes) {
     is_late = is_late && push.start >= scenario.duration;
+    is_zero = is_zero && (push.duration == 0 ||
+                          (push.force.isZero(0) && push.moment.isZero(0)));
     if (ImpulseOf(push, scenario.duration) > 0) shown.push_back(&push);
   }
   if (is_late) return Line("push", "%s", "none before the end of the run");
+  if (is_zero) return Line("push", "%s", "none: all forces or durations are 0");
   const int count = static_cast<int>(shown.size());
   std::string lines;
   for (int i = 0; i < std::min(count, kMostLines); ++i) {

@@ -103,6 +103,16 @@ TEST(Summary, PrintsALineForEachPushWithItsOwnForce) {
       has("1.91 N s over 0.030 s: half sine, peak 100 N at 90 deg on l_hand"));
   scenario.pushes.erase(scenario.pushes.begin());
   EXPECT_TRUE(has("none before the end of the run"));
+  scenario = MakeThreePushes();
+  for (Push& push : scenario.pushes) push.duration = 0;
+  EXPECT_TRUE(has("none: all forces or durations are 0"));
+  scenario = MakeThreePushes();
+  for (Push& push : scenario.pushes) push.force.setZero();
+  EXPECT_TRUE(has("none: all forces or durations are 0"));
+  scenario.pushes[0].moment.z() = 1;
+  EXPECT_FALSE(has("none: all forces or durations are 0"));
+  scenario.pushes.clear();
+  EXPECT_EQ(table().find("push"), std::string::npos);
   // The table shows at most five pushes.
   scenario.pushes = std::vector<Push>(8, MakeThreePushes().pushes[0]);
   EXPECT_TRUE(has("and 3 more"));

@@ -2,6 +2,7 @@
 #include "poise/sim/plants/plant_settings.h"
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <string>
 
 #include "poise/robot/input_error.h"
@@ -49,7 +50,10 @@ std::vector<NumberField> Fields(Board* board) {
 void Validate(const PlantSettings& settings) {
   PlantSettings copy = settings;
   Check("plant", Fields(&copy));
-  for (Board& board : copy.ground.boards) Check("boards", Fields(&board));
+  for (std::size_t i = 0; i < copy.ground.boards.size(); ++i) {
+    Check("plant.boards[" + std::to_string(i) + "]",
+          Fields(&copy.ground.boards[i]));
+  }
   if (copy.ground.boards.size() > kMostBoards) {
     throw InputError::OfValue(
         "plant.boards", " has " + std::to_string(copy.ground.boards.size()) +

@@ -3,6 +3,7 @@
 // first that differs is shrunk and written as a file that //tools:hqp replays.
 //   bazel run //tests/exact:judge -- --problems 10000 --seed 1 --out DIR
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -42,7 +43,8 @@ int Main(int argc, char** argv) {
   std::string out = "hqp-exact";
   CLI::App app("Compares the two solvers with exact optima.", "judge");
   app.option_defaults()->always_capture_default();
-  app.add_option("--problems", problems, "Number of hierarchies to draw");
+  app.add_option("--problems", problems, "Number of hierarchies to draw")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}));
   app.add_option("--seed", seed,
                  "Seed of the first hierarchy; each further one adds 1");
   app.add_option("--out", out,

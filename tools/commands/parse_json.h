@@ -2,16 +2,22 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 namespace poise {
 
-/// Parses a JSON document from outside. Throws std::invalid_argument with one
-/// line if:
-/// - the text is not JSON, or has a NUL character;
+/// Parses a JSON document from outside. Throws Refusal if:
+/// - the text is empty or not JSON, has a NUL character, or a number beyond the
+///   range of double: the message begins with SOURCE:LINE:COLUMN;
 /// - an object has a key twice, because one of the values would be lost;
 /// - the nesting is deeper than 100 levels, because to copy or to write such a
 ///   document would exhaust the stack.
-nlohmann::json ParseJson(std::string_view text);
+///
+/// @param source  the name of the text in messages.
+nlohmann::json ParseJson(std::string_view text, const std::string& source);
+
+/// Returns a value for a message of one line. A long one is cut.
+std::string ShowJson(const nlohmann::json& value);
 
 }  // namespace poise

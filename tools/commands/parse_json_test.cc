@@ -11,7 +11,7 @@ namespace {
 
 std::string Refusal(const std::string& text) {
   try {
-    ParseJson(text);
+    ParseJson(text, "a.json");
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -24,27 +24,51 @@ std::string Nested(int depth) {
 
 TEST(ParseJson, RejectsDeepNesting) {
   EXPECT_EQ(Refusal(Nested(100)), "accepted");
-  EXPECT_EQ(Refusal(Nested(102)), "is nested more than 100 levels deep");
-  EXPECT_EQ(Refusal(Nested(1'000'000)), "is nested more than 100 levels deep");
+  EXPECT_EQ(Refusal(Nested(102)),
+            "a.json: is nested more than 100 levels deep");
+  EXPECT_EQ(Refusal(Nested(1'000'000)),
+            "a.json: is nested more than 100 levels deep");
   EXPECT_EQ(Refusal("{\"a\": " + Nested(200'000) + "}"),
-            "is nested more than 100 levels deep");
+            "a.json: is nested more than 100 levels deep");
 }
 
 TEST(ParseJson, RejectsDuplicateKeys) {
   EXPECT_EQ(Refusal(R"({"a": 1, "b": {"a": 2}, "c": [{"a": 3}, {"a": 4}]})"),
             "accepted");
   EXPECT_EQ(Refusal(R"({"a": 1, "b": {"a": 2}, "a": 3})"),
-            "has the key \"a\" twice");
+            "a.json: has the key \"a\" twice");
   EXPECT_EQ(Refusal(R"([{"b": {"a": 2, "c": [], "a": 3}}])"),
-            "has the key \"a\" twice");
+            "a.json: has the key \"a\" twice");
 }
 
 TEST(ParseJson, AcceptsOnlyJson) {
-  EXPECT_EQ(ParseJson("{\"a\": [1, {\"b\": 2.5}]}")["a"][1]["b"], 2.5);
-  EXPECT_EQ(Refusal("{\"a\": [1,}").find("not JSON: "), 0u);
-  EXPECT_EQ(Refusal("").find("not JSON: "), 0u);
+  EXPECT_EQ(ParseJson("{\"a\": [1, {\"b\": 2.5}]}", "a.json")["a"][1]["b"],
+            2.5);
   EXPECT_EQ(Refusal(std::string("{}\0 and more", 12)),
-            "not JSON: has a NUL character");
+            "a.json:1:3: is not JSON: has a NUL character");
+}
+
+TEST(ParseJson, NamesLineAndColumnInPlainWords) {
+  const std::string start = "is not JSON: ";
+  for (const char* empty : {"", " \r\n\t"}) {
+    EXPECT_EQ(Refusal(empty), "a.json: is empty, must be JSON");
+  }
+  EXPECT_EQ(Refusal("{\"a\": [1,}"), "a.json:1:10: " + start +
+                                         "unexpected '}', must be '[', '{', "
+                                         "or a literal");
+  EXPECT_EQ(Refusal("[1]\n]"),
+            "a.json:2:1: " + start + "unexpected ']', must be end of input");
+  EXPECT_EQ(Refusal("[1,\n  nan]"),
+            "a.json:2:4: " + start +
+                "a word has no quotation marks and is not true, false or null");
+  EXPECT_EQ(Refusal("{\n\"a\": 1"),
+            "a.json:2:6: " + start + "the file ends too early");
+  EXPECT_EQ(Refusal("[\"a]"), "a.json:1:4: " + start +
+                                  "a text has no closing quotation mark, or a "
+                                  "character that JSON forbids");
+  EXPECT_EQ(Refusal("[1.]"), "a.json:1:4: " + start + "a number is malformed");
+  EXPECT_EQ(Refusal("[1,\n 1e400]"),
+            "a.json:2:2: number is '1e400', which is too large");
 }
 
 }  // namespace

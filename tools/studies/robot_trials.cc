@@ -97,8 +97,10 @@ class Candidate {
   }
 
   // Runs the robot. `expected` is null if EXPECTED.json does not name it.
-  RobotTrial Run(const ExpectedRobot* expected) {
-    trial_.is_expected = expected != nullptr;
+  //
+  // @param may_be_refused  whether it is no fault if the robot is refused.
+  RobotTrial Run(const ExpectedRobot* expected, bool may_be_refused) {
+    may_be_refused_ = may_be_refused;
     const ExpectedRobot wanted = expected ? *expected : ExpectedRobot();
     try {
       Load();
@@ -129,7 +131,7 @@ class Candidate {
     const fs::path file = FindProfile(document.MakeModel().name, urdf_);
     const std::vector<Finding> findings = findings_;
     try {
-      if (!file.empty()) profile_ = LoadProfile(file);
+      if (!file.empty()) profile_ = ReadProfile(file);
       trial_.profile = file.filename().string();
       trial_.robot = MakeStandingRobot(document, profile_, &findings_);
     } catch (const std::invalid_argument&) {
@@ -137,12 +139,21 @@ class Candidate {
       const bool is_ours = file.parent_path() != urdf_.parent_path();
       if (file.empty() || !is_ours) throw;
       profile_ = Profile();
+      has_bad_profile_ = false;
       trial_.profile.clear();
       findings_ = findings;
       trial_.robot = MakeStandingRobot(document, profile_, &findings_);
     }
     trial_.soles = SolesFrom(*trial_.robot);
     trial_.forward = ForwardAxis(*trial_.robot);
+  }
+
+  // No robot is meant to have a profile that cannot be read.
+  Profile ReadProfile(const fs::path& file) {
+    has_bad_profile_ = true;
+    Profile profile = LoadProfile(file);
+    has_bad_profile_ = false;
+    return profile;
   }
 
   RunResult RunScenario(const std::string& name,
@@ -187,12 +198,16 @@ class Candidate {
   void FindFaults(const ExpectedRobot& wanted) {
     std::vector<std::string>& faults = trial_.faults;
     if (trial_.robot) CompareFeet(wanted, &trial_);
+    if (has_bad_profile_) {
+      faults.push_back("its profile is refused");
+      return;
+    }
     if (!wanted.stands) {
       if (trial_.stands()) faults.push_back("stands, must not");
       return;
     }
     if (!trial_.refused.empty()) {
-      if (trial_.is_expected) faults.push_back("is refused");
+      if (!may_be_refused_) faults.push_back("is refused");
       return;
     }
     if (!trial_.stands()) {
@@ -223,8 +238,25 @@ class Candidate {
   std::vector<fs::path> packages_;
   std::vector<Finding> findings_;
   Profile profile_;
+  bool has_bad_profile_ = false;
+  bool may_be_refused_ = false;
   RobotTrial trial_;
 };
+
+// Throws if a robot of EXPECTED.json has no file, because it would not be tried.
+void CheckNames(const std::map<std::string, ExpectedRobot>& expected,
+                const std::vector<fs::path>& files) {
+  for (const auto& [name, robot] : expected) {
+    const auto found = std::find_if(
+        files.begin(), files.end(),
+        [name = name](const fs::path& file) { return file.stem() == name; });
+    if (found != files.end()) continue;
+    throw std::invalid_argument(
+        (files[0].parent_path() / "EXPECTED.json").string() + ": robot " +
+        Quoted(name) + " has no URDF file in the folder, add " + OneLine(name) +
+        ".urdf or remove the key");
+  }
+}
 
 std::string TextOrEmpty(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
@@ -241,7 +273,8 @@ std::map<std::string, ExpectedRobot> ReadExpected(const fs::path& folder) {
   if (!fs::exists(file, none)) return {};
   std::map<std::string, ExpectedRobot> robots;
   try {
-    const nlohmann::json json = ParseJson(ReadTextFile(file, kMostMiB));
+    const nlohmann::json json =
+        ParseJson(ReadTextFile(file, kMostMiB), file.string());
     if (!json.is_object()) {
       throw std::invalid_argument(
           "must be an object with a key for each robot");
@@ -269,9 +302,11 @@ std::vector<RobotTrial> RunRobots(
     const RobotFolder& robots,
     const std::function<void(const RobotTrial&)>& show) {
   const auto expected = ReadExpected(robots.folder);
+  const std::vector<fs::path> files = UrdfFiles(robots.folder);
+  CheckNames(expected, files);
   std::deque<Candidate> candidates;
   std::vector<const ExpectedRobot*> wanted;
-  for (const fs::path& file : UrdfFiles(robots.folder)) {
+  for (const fs::path& file : files) {
     const std::string name = file.stem().string();
     if (name.find(robots.only) == std::string::npos) continue;
     candidates.emplace_back(file, robots.packages);
@@ -285,7 +320,9 @@ std::vector<RobotTrial> RunRobots(
   std::vector<RobotTrial> trials;
   RunInOrder(
       candidates.size(),
-      [&](std::size_t i) { return candidates[i].Run(wanted[i]); },
+      [&](std::size_t i) {
+        return candidates[i].Run(wanted[i], expected.empty());
+      },
       [&](std::size_t i, RobotTrial trial) {
         trials.push_back(std::move(trial));
         candidates[i].Warn(trials.back());

@@ -54,8 +54,6 @@ struct RobotTrial {
   std::string one_leg_obstacle;
   /// Differences from what is expected, in words.
   std::vector<std::string> faults;
-  /// Whether EXPECTED.json names the robot.
-  bool is_expected = false;
 
   bool stands() const { return stand && stand->verdict.recovered; }
 };
@@ -78,12 +76,14 @@ std::map<std::string, ExpectedRobot> ReadExpected(
 /// A robot has no faults if it stands, takes the pushes and stands on one leg,
 /// except for an obstacle that is known beforehand; and if its feet and its
 /// forward axis are the expected ones. If it is expected not to stand, it must
-/// be refused or fall. A refused robot that EXPECTED.json does not name has no
-/// fault.
+/// be refused or fall. A refused robot that EXPECTED.json does not name has a
+/// fault; without EXPECTED.json it has none. A profile that cannot be read is
+/// always a fault.
 ///
 /// @param show  is called with each robot, in alphabetical order.
 /// Throws std::invalid_argument if the folder has no URDF file, if
-/// EXPECTED.json is invalid, or if no name contains `only`.
+/// EXPECTED.json is invalid or names a robot without a file, or if no name
+/// contains `only`.
 std::vector<RobotTrial> RunRobots(
     const RobotFolder& robots,
     const std::function<void(const RobotTrial&)>& show);

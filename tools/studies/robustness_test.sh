@@ -84,7 +84,28 @@ run 0 --robots "$robots" --only box
 echo '{"box": 3}' > "$robots/EXPECTED.json"
 refuse "$robots/EXPECTED.json: robot 'box': must have stands: true or false" \
   --robots "$robots"
+echo '{"ghost": {"stands": true}}' > "$robots/EXPECTED.json"
+refuse "$robots/EXPECTED.json: robot 'ghost' has no URDF file in the folder, add $(
+  )ghost.urdf or remove the key" --robots "$robots"
+
+# No broken file is as expected, if EXPECTED.json does not say so.
+echo '{"box": {"stands": false}}' > "$robots/EXPECTED.json"
+head -c 2000 "$robots/mine.urdf" > "$robots/cut.urdf"
+run 1 --robots "$robots" --only cut
+grep -q '^| cut | | refused: .* | \*\*no\*\*: is refused |$' <<< "$out" || fail "cut is expected: $out"
 rm "$robots/EXPECTED.json"
+run 0 --robots "$robots" --only cut
+echo 'feeet: {}' > "$robots/mine.yaml"
+run 1 --robots "$robots" --only mine
+grep -q "mine.yaml:1: .* unknown key 'feeet', .* \*\*no\*\*: its profile is refused" <<< "$out" ||
+  fail "the broken profile is expected: $out"
+
+# The folder of the page is made before the runs.
+refuse "--out is '/dev/null/x', which cannot be made a folder: Not a directory" \
+  --robots "$robots" --out /dev/null/x
+refuse "--out is '/dev/null', which cannot be made a folder: Not a directory" \
+  --robots "$robots" --out /dev/null
+rm "$robots/cut.urdf"
 
 # Without a profile the feet and the posture are found, as by push. Knees this
 # weak cannot hold the robot.

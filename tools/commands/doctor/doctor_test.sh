@@ -28,16 +28,20 @@ grep -q '"verdict": "ok"' out || fail "the JSON has no verdict"
 
 sed 's/<mass value="[^"]*"/<mass value="x"/' "$urdf" > bad.urdf
 expect 2 1 bad.urdf
-grep -q "^bad.urdf:[0-9]*: link '.*' <mass>: value is 'x', must be a number$" err ||
+grep -q "^doctor: bad.urdf:[0-9]*: link '.*' <mass>: value is 'x', must be a number$" err ||
   fail "the message does not name the mass and its value: $(cat err)"
 expect 2 1 bad.urdf --json
 grep -q '"verdict": "reject"' out || fail "the JSON has no verdict"
 
 expect 2 1 no_such.urdf
+[ "$(cat err)" = "doctor: no_such.urdf: cannot be read: No such file or directory" ] ||
+  fail "a missing file: stderr is $(cat err)"
+grep -q '^next  *bazel run //tools:doctor -- ROBOT.urdf  # with a URDF file that can be read$' out ||
+  fail "the advice about a missing file is: $(cat out)"
 expect 2 1 "$urdf" --profile no_such.yaml
 printf 'feet:\n  left_foot: 1\n' > bad.yaml
 expect 2 1 "$urdf" --profile bad.yaml
-grep -q '^bad.yaml:2: ' err || fail "the message has no line number of the profile: $(cat err)"
+grep -q '^doctor: bad.yaml:2: ' err || fail "the message has no line number of the profile: $(cat err)"
 
 # The saved profile must not replace an input, nor what a link points to.
 cp "$urdf" mine.urdf

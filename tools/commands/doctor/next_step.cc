@@ -160,6 +160,10 @@ std::string AfterRejection(const Diagnosis& diagnosis,
     return WithComment(commands.Doctor("ROBOT.urdf"),
                        "after you have exported the robot as URDF");
   }
+  if (has("cannot be read") || has("is not a regular file")) {
+    return WithComment(commands.Doctor("ROBOT.urdf"),
+                       "with a URDF file that can be read");
+  }
   return WithComment(commands.DoctorAgain(arguments.profile),
                      has("loop")
                          ? "after you have removed one joint of the loop, or "

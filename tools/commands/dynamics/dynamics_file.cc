@@ -8,6 +8,7 @@
 #include "poise/dynamics/rnea.h"
 #include "poise/dynamics/tick.h"
 #include "poise/math/quaternion.h"
+#include "poise/tools/commands/parse_json.h"
 
 namespace poise {
 namespace {
@@ -18,26 +19,39 @@ using nlohmann::json;
 
 const json& Entry(const json& object, const char* key,
                   const std::string& where) {
-  if (!object.is_object() || !object.contains(key)) {
+  if (!object.contains(key)) {
     throw std::invalid_argument(where + ": has no key '" + key + "'");
   }
   return object[key];
 }
 
+const json& Array(const json& object, const char* key,
+                  const std::string& where) {
+  const json& entry = Entry(object, key, where);
+  if (entry.is_array()) return entry;
+  throw std::invalid_argument(where + ": '" + key + "' is " + ShowJson(entry) +
+                              ", must be an array");
+}
+
 VectorXd ReadVector(const json& object, const char* key, int size,
                     const std::string& where) {
-  const json& entry = Entry(object, key, where);
-  bool is_good = entry.is_array() && static_cast<int>(entry.size()) == size;
-  for (const json& number : entry) {
-    is_good =
-        is_good && number.is_number() && std::isfinite(number.get<double>());
-  }
-  if (!is_good) {
-    throw std::invalid_argument(where + ": '" + key + "' must be " +
-                                std::to_string(size) + " finite numbers");
+  const json& entry = Array(object, key, where);
+  const std::string has = where + ": '" + key + "' has ";
+  const int n = static_cast<int>(entry.size());
+  if (n != size) {
+    throw std::invalid_argument(has + std::to_string(n) +
+                                (n == 1 ? " entry" : " entries") +
+                                ", must have " + std::to_string(size));
   }
   VectorXd vector(size);
-  for (int i = 0; i < size; ++i) vector[i] = entry[i];
+  for (int i = 0; i < size; ++i) {
+    if (!entry[i].is_number() || !std::isfinite(entry[i].get<double>())) {
+      throw std::invalid_argument(has + ShowJson(entry[i]) + " at index " +
+                                  std::to_string(i) +
+                                  ", must be a finite number");
+    }
+    vector[i] = entry[i];
+  }
   return vector;
 }
 
@@ -58,7 +72,7 @@ json VectorToJson(const VectorXd& vector) {
 
 // Returns the index in the tree of each joint, in the order of the file.
 std::vector<int> ReadJoints(const Tree& tree, const json& document) {
-  const json& names = Entry(document, "joints", "document");
+  const json& names = Array(document, "joints", "document");
   std::vector<int> order;
   std::vector<bool> found(tree.num_joints(), false);
   for (const json& name : names) {
@@ -190,17 +204,24 @@ void ComputeState(const Tree& tree, const std::vector<int>& order,
 
 json ComputeDynamics(const Tree& tree, const json& document,
                      const std::vector<std::string>& frames) {
+  if (!document.is_object()) {
+    throw std::invalid_argument(
+        "is " + ShowJson(document) +
+        ", must be an object with the keys joints and states");
+  }
   json result = document;
   const std::vector<int> order = ReadJoints(tree, document);
-  if (!Entry(document, "states", "document").is_array()) {
-    throw std::invalid_argument("document: 'states' must be an array");
-  }
+  (void)Array(document, "states", "document");
   result["nv"] = tree.nv();
   result["total_mass"] = tree.total_mass();
   result["root_link"] = tree.frames()[0].name;
   int i = 0;
   for (json& state : result["states"]) {
     const std::string where = "state " + std::to_string(i++);
+    if (!state.is_object()) {
+      throw std::invalid_argument(where + ": is " + ShowJson(state) +
+                                  ", must be an object");
+    }
     ComputeState(tree, order, FramesOf(state, frames), where, &state);
   }
   return result;

@@ -107,7 +107,11 @@ TEST(ComputeDynamics, ComputesTheFramesNamedInAState) {
 }
 
 TEST(ComputeDynamics, NamesTheInvalidEntry) {
-  EXPECT_EQ(MessageOf(json::array()), "document: has no key 'joints'");
+  for (const json& root : {json::array(), json(), json("x")}) {
+    EXPECT_EQ(MessageOf(root),
+              "is " + root.dump() +
+                  ", must be an object with the keys joints and states");
+  }
   json document = MakeDocument();
   document["joints"][0] = "c";
   EXPECT_EQ(MessageOf(document), "joints: the robot has no joint \"c\"");
@@ -115,22 +119,34 @@ TEST(ComputeDynamics, NamesTheInvalidEntry) {
   EXPECT_EQ(MessageOf(document), "joints: the robot has no joint 7");
   document["joints"][0] = "to_a";
   EXPECT_EQ(MessageOf(document), "joints: \"to_a\" is listed twice");
+  document["joints"] = "to_a";
+  EXPECT_EQ(MessageOf(document),
+            "document: 'joints' is \"to_a\", must be an array");
   document["joints"] = {"to_a"};
   EXPECT_EQ(MessageOf(document), "joints: 'to_b' is missing");
   document = MakeDocument();
   document["states"] = 1;
-  EXPECT_EQ(MessageOf(document), "document: 'states' must be an array");
+  EXPECT_EQ(MessageOf(document), "document: 'states' is 1, must be an array");
   document.erase("states");
   EXPECT_EQ(MessageOf(document), "document: has no key 'states'");
+  document = MakeDocument();
+  document["states"][0] = 3;
+  EXPECT_EQ(MessageOf(document), "state 0: is 3, must be an object");
   document = MakeDocument();
   document["states"][0].erase("qd");
   EXPECT_EQ(MessageOf(document), "state 0: has no key 'qd'");
   document["states"][0]["qd"] = {1, 2, 3};
-  EXPECT_EQ(MessageOf(document), "state 0: 'qd' must be 2 finite numbers");
+  EXPECT_EQ(MessageOf(document), "state 0: 'qd' has 3 entries, must have 2");
+  document["states"][0]["qd"] = {1};
+  EXPECT_EQ(MessageOf(document), "state 0: 'qd' has 1 entry, must have 2");
   document["states"][0]["qd"] = {1, "x"};
-  EXPECT_EQ(MessageOf(document), "state 0: 'qd' must be 2 finite numbers");
+  EXPECT_EQ(MessageOf(document),
+            "state 0: 'qd' has \"x\" at index 1, must be a finite number");
+  document["states"][0]["qd"] = {NAN, 1};
+  EXPECT_EQ(MessageOf(document),
+            "state 0: 'qd' has null at index 0, must be a finite number");
   document["states"][0]["qd"] = 3;
-  EXPECT_EQ(MessageOf(document), "state 0: 'qd' must be 2 finite numbers");
+  EXPECT_EQ(MessageOf(document), "state 0: 'qd' is 3, must be an array");
   document = MakeDocument();
   document["states"][0]["base_quaternion_wxyz"] = {0, 0, 0, 0};
   EXPECT_EQ(MessageOf(document),

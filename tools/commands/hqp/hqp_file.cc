@@ -38,14 +38,6 @@ void ListOthers(const json& object, const std::string& where,
   }
 }
 
-// Returns a value for a message. A long one is cut, so that the message stays one line.
-std::string Show(const json& value) {
-  constexpr size_t kMost = 40;
-  const std::string text =
-      value.dump(-1, ' ', true, json::error_handler_t::replace);
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
-}
-
 // Returns the array `key` of an object, or an empty array if the key is absent.
 const json& Array(const json& object, const char* key,
                   const std::string& where) {
@@ -53,14 +45,14 @@ const json& Array(const json& object, const char* key,
   const auto found = object.find(key);
   if (found == object.end()) return kEmpty;
   if (!found->is_array()) {
-    Refuse(where + "." + key, "is " + Show(*found) + ", must be an array");
+    Refuse(where + "." + key, "is " + ShowJson(*found) + ", must be an array");
   }
   return *found;
 }
 
 double Number(const json& value, const std::string& where) {
   if (!value.is_number()) {
-    Refuse(where, "is " + Show(value) + ", must be a number");
+    Refuse(where, "is " + ShowJson(value) + ", must be a number");
   }
   return value.get<double>();
 }
@@ -83,17 +75,45 @@ void RefuseCrossed(const InequalityBlock& block, const std::string& lower,
   }
 }
 
+std::string Entries(size_t n) {
+  return std::to_string(n) + (n == 1 ? " entry" : " entries");
+}
+
 void RefuseLength(const json& array, size_t wanted, const std::string& where) {
   if (array.size() == wanted) return;
-  Refuse(where, "has " + std::to_string(array.size()) +
-                    (array.size() == 1 ? " entry" : " entries") +
-                    ", must have " + std::to_string(wanted));
+  Refuse(where, "has " + Entries(array.size()) + ", must have " +
+                    std::to_string(wanted));
+}
+
+// Returns the array `key` of a level, with one entry for each row of a matrix.
+const json& Column(const json& level, const char* key, const char* matrix,
+                   const std::string& where) {
+  const json& rows = Array(level, matrix, where);
+  const json& column = Array(level, key, where);
+  if (!column.empty() && !level.contains(matrix)) {
+    Refuse(where + "." + matrix, "is missing, but " + std::string(key) +
+                                     " has " + Entries(column.size()));
+  }
+  if (!rows.empty() && !level.contains(key)) {
+    Refuse(where + "." + key, "is missing, must have " + Entries(rows.size()) +
+                                  ", as many as " + matrix + " has rows");
+  }
+  RefuseLength(column, rows.size(), where + "." + key);
+  return column;
+}
+
+// Rejects a list of names that does not have one name a row.
+void CheckNames(const json& level, const char* key, size_t rows,
+                const std::string& where) {
+  if (!level.contains(key)) return;
+  RefuseLength(Array(level, key, where), rows, where + "." + key);
 }
 
 template <typename Matrix>
 void ReadRow(const json& row, int i, const std::string& where, Matrix* to) {
   const std::string name = where + "[" + std::to_string(i) + "]";
-  if (!row.is_array()) Refuse(name, "is " + Show(row) + ", must be an array");
+  if (!row.is_array())
+    Refuse(name, "is " + ShowJson(row) + ", must be an array");
   RefuseLength(row, to->cols(), name);
   for (int j = 0; j < to->cols(); ++j) {
     (*to)(i, j) = Number(row[j], name + "[" + std::to_string(j) + "]");
@@ -103,8 +123,8 @@ void ReadRow(const json& row, int i, const std::string& where, Matrix* to) {
 void ReadEqualities(const json& level, int index, const std::string& where,
                     Hierarchy* hierarchy) {
   const json& B = Array(level, "B", where);
-  const json& b = Array(level, "b", where);
-  RefuseLength(b, B.size(), where + ".b");
+  const json& b = Column(level, "b", "B", where);
+  CheckNames(level, "equality_names", B.size(), where);
   const int rows = static_cast<int>(B.size());
   EqualityBlock block = hierarchy->AddEqualities(index, rows);
   for (int i = 0; i < rows; ++i) {
@@ -112,8 +132,7 @@ void ReadEqualities(const json& level, int index, const std::string& where,
     block.b[i] = Number(b[i], where + ".b[" + std::to_string(i) + "]");
   }
   if (!level.contains("weight")) return;
-  const json& weight = Array(level, "weight", where);
-  RefuseLength(weight, rows, where + ".weight");
+  const json& weight = Column(level, "weight", "B", where);
   for (int i = 0; i < rows; ++i) {
     const std::string name = where + ".weight[" + std::to_string(i) + "]";
     block.weight[i] = Number(weight[i], name);
@@ -127,8 +146,7 @@ void ReadEqualities(const json& level, int index, const std::string& where,
 void ReadInequalities(const json& level, int index, const std::string& where,
                       Hierarchy* hierarchy) {
   const json& A = Array(level, "A", where);
-  const json& a = Array(level, "a", where);
-  RefuseLength(a, A.size(), where + ".a");
+  const json& a = Column(level, "a", "A", where);
   const int rows = static_cast<int>(A.size());
   InequalityBlock block = hierarchy->AddInequalities(index, rows);
   for (int i = 0; i < rows; ++i) {
@@ -136,14 +154,14 @@ void ReadInequalities(const json& level, int index, const std::string& where,
     block.upper[i] = -Number(a[i], where + ".a[" + std::to_string(i) + "]");
   }
   const json& C = Array(level, "C", where);
+  CheckNames(level, "inequality_names", A.size() + C.size(), where);
   const int sided_rows = static_cast<int>(C.size());
   InequalityBlock sided = hierarchy->AddInequalities(index, sided_rows);
   for (int i = 0; i < sided_rows; ++i) ReadRow(C[i], i, where + ".C", &sided.C);
   for (const char* key : {"lower", "upper"}) {
     if (!level.contains(key)) continue;
     const std::string name = where + "." + key;
-    const json& bounds = Array(level, key, where);
-    RefuseLength(bounds, sided_rows, name);
+    const json& bounds = Column(level, key, "C", where);
     const bool is_lower = key == std::string("lower");
     for (int i = 0; i < sided_rows; ++i) {
       (is_lower ? sided.lower : sided.upper)[i] =
@@ -176,7 +194,7 @@ int Integer(const json& file, const char* key, int low, int high) {
   const auto found = file.find(key);
   if (found == file.end()) Refuse(key, "is missing");
   if (!found->is_number_integer() || *found < low || *found > high) {
-    Refuse(key, "is " + Show(*found) + ", must be a whole number from " +
+    Refuse(key, "is " + ShowJson(*found) + ", must be a whole number from " +
                     std::to_string(low) + " to " + std::to_string(high));
   }
   return found->get<int>();
@@ -208,17 +226,25 @@ ordered_json Rows(const Eigen::Map<const RowMajorMatrix>& matrix) {
 
 }  // namespace
 
-HqpProblem ReadHqp(const std::string& text) {
-  const json file = ParseJson(text);
-  if (!file.is_object()) Refuse("file", "must be an object");
+HqpProblem ReadHqp(const std::string& text, const std::string& source) {
+  const json file = ParseJson(text, source);
+  if (!file.is_object()) {
+    throw std::invalid_argument(
+        "is " + ShowJson(file) +
+        ", must be an object with the keys format, variables and levels");
+  }
   const auto format = file.find("format");
   if (format == file.end() || *format != "hqp-1") {
     Refuse("format",
-           (format == file.end() ? "is missing" : "is " + Show(*format)) +
+           (format == file.end() ? "is missing" : "is " + ShowJson(*format)) +
                ", must be \"hqp-1\"");
   }
   const int n = Integer(file, "variables", 1, kMostVariables);
   const json& levels = Array(file, "levels", "file");
+  if (!file.contains("levels")) {
+    Refuse("levels", "is missing, must have 1 to " +
+                         std::to_string(kMostLevels) + " entries");
+  }
   if (levels.empty() || levels.size() > kMostLevels) {
     Refuse("levels", "has " + std::to_string(levels.size()) +
                          " entries, must have 1 to " +
@@ -234,7 +260,7 @@ HqpProblem ReadHqp(const std::string& text) {
   for (size_t level = 0; level < levels.size(); ++level) {
     const std::string where = "levels[" + std::to_string(level) + "]";
     if (!levels[level].is_object()) {
-      Refuse(where, "is " + Show(levels[level]) + ", must be an object");
+      Refuse(where, "is " + ShowJson(levels[level]) + ", must be an object");
     }
     const auto rows = [&](const char* key) {
       return static_cast<int>(Array(levels[level], key, where).size());

@@ -24,9 +24,11 @@ struct HqpProblem {
 /// on y.
 ///
 /// Throws std::invalid_argument with one line that names the entry and the
-/// error. As in CheckInput(), a lower bound above its upper bound and a
-/// negative weight are errors.
-HqpProblem ReadHqp(const std::string& text);
+/// error, or Refusal as ParseJson() does. As in CheckInput(), a lower bound
+/// above its upper bound and a negative weight are errors.
+///
+/// @param source  the name of the text in the messages of ParseJson().
+HqpProblem ReadHqp(const std::string& text, const std::string& source = "file");
 
 /// Returns a hierarchy in the format hqp-1. A running controller can dump its
 /// problem this way, to replay the solve later. ReadHqp() restores each number

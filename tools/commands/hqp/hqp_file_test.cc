@@ -184,19 +184,40 @@ TEST(ReadHqp, RejectsInOneLine) {
   const std::string head = R"({"format": "hqp-1", "variables": 2, "levels": )";
   EXPECT_NE(Refusal("{").find("not JSON"), std::string::npos);
   EXPECT_EQ(Refusal("{").find('\n'), std::string::npos);
-  EXPECT_EQ(Refusal("[]"), "file: must be an object");
+  for (const std::string root : {"[1,2]", "null", "\"x\""}) {
+    EXPECT_EQ(Refusal(root), "is " + root +
+                                 ", must be an object with the keys format, "
+                                 "variables and levels");
+  }
   EXPECT_EQ(Refusal("{}"), "format: is missing, must be \"hqp-1\"");
   EXPECT_EQ(Refusal(R"({"format": "hqp-2"})"),
             R"(format: is "hqp-2", must be "hqp-1")");
   EXPECT_EQ(Refusal(R"({"format": "hqp-1"})"), "variables: is missing");
   EXPECT_EQ(Refusal(R"({"format": "hqp-1", "variables": 0})"),
             "variables: is 0, must be a whole number from 1 to 2000");
+  EXPECT_EQ(Refusal(R"({"format": "hqp-1", "variables": 1})"),
+            "levels: is missing, must have 1 to 1000 entries");
   EXPECT_EQ(Refusal(head + "[]}"),
             "levels: has 0 entries, must have 1 to 1000");
   EXPECT_EQ(Refusal(head + "3}"), "file.levels: is 3, must be an array");
   EXPECT_EQ(Refusal(head + "[3]}"), "levels[0]: is 3, must be an object");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2]]}]})"),
+            "levels[0].b: is missing, must have 1 entry, as many as B has "
+            "rows");
+  EXPECT_EQ(Refusal(head + R"([{"b": [1, 2]}]})"),
+            "levels[0].B: is missing, but b has 2 entries");
+  EXPECT_EQ(Refusal(head + R"([{"weight": [1]}]})"),
+            "levels[0].B: is missing, but weight has 1 entry");
+  EXPECT_EQ(Refusal(head + R"([{"upper": [1]}]})"),
+            "levels[0].C: is missing, but upper has 1 entry");
+  EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2]], "b": []}]})"),
             "levels[0].b: has 0 entries, must have 1");
+  EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2], [3, 4]], "b": [1, 2],
+                                "equality_names": ["x"]}]})"),
+            "levels[0].equality_names: has 1 entry, must have 2");
+  EXPECT_EQ(Refusal(head + R"([{"A": [[1, 2]], "a": [1], "C": [[3, 4]],
+                                "inequality_names": ["x"]}]})"),
+            "levels[0].inequality_names: has 1 entry, must have 2");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1]], "b": [1]}]})"),
             "levels[0].B[0]: has 1 entry, must have 2");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, "x"]], "b": [1]}]})"),

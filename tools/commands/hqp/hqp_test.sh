@@ -93,12 +93,12 @@ echo '{"format": "hqp-1", "variables": 1, "levels": [
 refuse "hqp: crossed.json: levels[0].lower[0]: is 2, must not be above $(
   )upper[0], 1" "$hqp" --json good.json crossed.json
 
-refuse "hqp: /tmp: is not a regular file" "$hqp" /tmp
+refuse "hqp: /tmp: cannot be read: Is a directory" "$hqp" /tmp
 refuse "hqp: /dev/zero: is not a regular file" "$hqp" /dev/zero
-refuse "hqp: gone.json: cannot be read" "$hqp" gone.json
+refuse "hqp: gone.json: cannot be read: No such file or directory" "$hqp" gone.json
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo
 refuse "hqp: option '--foo' is unknown" "$hqp" --foo good.json
-refuse "hqp: files is required" "$hqp"
+refuse "hqp: files is missing, see --help" "$hqp"
 
 refuse "dynamics: /dev/zero: is not a regular file" \
   "$dynamics" --urdf "$urdf" --states /dev/zero
@@ -121,5 +121,8 @@ echo '{"joints": ["hinge"], "states": []}' > states.json
   )(link 'tip' and beyond), M is singular or indefinite: $(
   )no acceleration can be computed" ] ||
   fail "dynamics prints for a leaf without mass: $(cat error)"
+echo '[]' > list.json
+refuse "dynamics: list.json: is [], must be an object with the keys joints and states" \
+  "$dynamics" --urdf leaf.urdf --states list.json
 refuse "dynamics: good.json: document: has no key 'joints'" \
   "$dynamics" --urdf leaf.urdf --states good.json

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "poise/hqp/reference/cascade.h"
+#include "poise/robot/finding.h"
 #include "poise/robot/text_file.h"
 #include "poise/tools/commands/user_path.h"
 
@@ -35,7 +36,9 @@ std::vector<LevelCapacity> Room(const std::vector<HqpProblem>& problems) {
 HqpProblem LoadHqp(const std::string& name) {
   const std::string text = ReadTextFile(UserPath(name), kMostMib);
   try {
-    return ReadHqp(text);
+    return ReadHqp(text, name);
+  } catch (const Refusal&) {  // Already names the file.
+    throw;
   } catch (const std::exception& error) {
     throw std::invalid_argument(name + ": " + error.what());
   }

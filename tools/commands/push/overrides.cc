@@ -1,12 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/push/overrides.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 
 #include "poise/robot/finding.h"
@@ -198,7 +200,20 @@ void AddOptions(CLI::App* app, Overrides* o) {
   AddPlantOptions(app, o);
 }
 
+void RefuseBoth(const std::vector<std::string>& with,
+                const std::vector<std::string>& without) {
+  for (const std::string& task : with) {
+    if (std::find(without.begin(), without.end(), task) == without.end()) {
+      continue;
+    }
+    throw std::invalid_argument(
+        "task " + Quoted(task) +
+        " is in --with and in --without, must be in one of them");
+  }
+}
+
 void Apply(const Overrides& o, Scenario* scenario) {
+  RefuseBoth(o.with, o.without);
   TakePush(o, scenario);
   ControlSettings& control = scenario->control;
   PlantSettings& plant = scenario->plant;
@@ -230,6 +245,10 @@ void Apply(const Overrides& o, Scenario* scenario) {
   Take(o.delay, &control.delay);
   Take(o.ramp, &control.ramp);
   if (!o.freeze.empty()) {
+    if (o.freeze[1] == 0) {
+      throw std::invalid_argument("--freeze is " + PrintNumber(o.freeze[0]) +
+                                  ",0, must be AT,FOR with FOR above 0 s");
+    }
     scenario->sensors.freeze_at = o.freeze[0];
     scenario->sensors.freeze_for = o.freeze[1];
   }

@@ -27,10 +27,14 @@ struct Overrides {
 /// Adds the options to an application, which writes their values to *overrides.
 void AddOptions(CLI::App* app, Overrides* overrides);
 
+/// Throws std::invalid_argument if --with and --without name the same task.
+void RefuseBoth(const std::vector<std::string>& with,
+                const std::vector<std::string>& without);
+
 /// Writes the given options into a scenario. The options about a push change
 /// the first push of the scenario, or add a push if there is none. Throws
-/// std::invalid_argument if the file of pushes is invalid, and InputError if
-/// the direction is out of range.
+/// std::invalid_argument if the file of pushes is invalid or options contradict
+/// each other, and InputError if the direction is out of range.
 void Apply(const Overrides& overrides, Scenario* scenario);
 
 }  // namespace poise

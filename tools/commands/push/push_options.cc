@@ -22,6 +22,7 @@
 #include "poise/robot/urdf/urdf.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
+#include "poise/sim/yaml_fields.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/keep_inputs.h"
 #include "poise/tools/commands/package_path.h"
@@ -63,7 +64,9 @@ std::string OptionOf(const std::string& field, const Overrides& o,
       {o.time.has_value(), "duration", "--time"},
       {o.control_rate.has_value(), "control.rate", "--control-rate"},
       {o.plant_rate.has_value(), "plant.rate", "--plant-rate"},
-      {o.budget_us.has_value(), "control.budget_us", "--budget-us"},
+      // --budget-clock alone lacks --budget-us.
+      {o.budget_us.has_value() || o.budget_clock.has_value(),
+       "control.budget_us", "--budget-us"},
       {o.budget_clock.has_value(), "control.budget_clock", "--budget-clock"},
       {o.delay.has_value(), "control.delay", "--delay"},
       {o.ramp.has_value(), "control.ramp", "--ramp"},
@@ -118,7 +121,14 @@ std::string Blame(const InputError& error, const Overrides& o,
     is_by_option |= !OptionOf(field, o, sources).empty();
   }
   const std::string file = FileOf(error.field(), sources);
-  return (is_by_option || file.empty() ? "" : file + ": ") + error.Say(name);
+  if (is_by_option || file.empty()) return error.Say(name);
+  int line = 0;
+  if (file != sources.robot) {  // A URDF file is not YAML.
+    line = LineOf(file, error.field());
+    if (line == 0 && !error.other().empty()) line = LineOf(file, error.other());
+  }
+  return file + ":" + (line > 0 ? std::to_string(line) + ":" : "") + " " +
+         error.Say(name);
 }
 
 // Returns the names of Poise's scenarios in alphabetical order.
@@ -144,7 +154,7 @@ std::filesystem::path FindScenario(const std::string& name) {
     if (std::filesystem::exists(ours, too_long)) return ours;
   }
   std::filesystem::path theirs = UserPath(name);
-  if (std::filesystem::is_regular_file(theirs, too_long)) return theirs;
+  if (std::filesystem::exists(theirs, too_long)) return theirs;
   throw std::invalid_argument("scenario '" + name +
                               "' is unknown, must be a file or one of " +
                               ScenarioNames());

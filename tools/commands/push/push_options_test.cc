@@ -51,12 +51,13 @@ TEST(PushOptions, NamesTheFileOfAnInvalidValue) {
           .string();
   EXPECT_EQ(
       Refusal({"--pushes", pushes}),
-      pushes + ": link 'nose' is unknown, must be a link of robot 'humanoid'");
+      pushes +
+          ":1: link 'nose' is unknown, must be a link of robot 'humanoid'");
   const std::string scenario =
       TestFile("rates.yaml", "control: {rate: 300}\n").string();
   EXPECT_EQ(Refusal({"--scenario", scenario}),
             scenario +
-                ": control.rate is 300, must evenly divide plant.rate, "
+                ":1: control.rate is 300, must evenly divide plant.rate, "
                 "which is 1000");
 }
 
@@ -88,7 +89,7 @@ TEST(PushOptions, DistinguishesTasksOfFileAndOptions) {
       "task 'frame.nose' is unknown, must be frame.LINK with a link of the "
       "robot";
   EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "zmp"}),
-            scenario + ": " + unknown);
+            scenario + ":1: " + unknown);
   EXPECT_EQ(Refusal({"--with", "frame.nose"}), unknown);
 }
 
@@ -110,8 +111,24 @@ TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
   EXPECT_EQ(Refusal({"--budget-us", "-1"}),
             "--budget-us is -1, must be 0 to 1e+06 us");
   EXPECT_EQ(Refusal({"--budget-clock"}),
-            "--budget-clock is true without a budget_us, set budget_us as "
-            "well");
+            "--budget-clock is true, must come with --budget-us above 0 us");
+  const std::string clock =
+      TestFile("clock.yaml", "control: {budget_clock: true}\n").string();
+  EXPECT_EQ(Refusal({"--scenario", clock}),
+            clock +
+                ":1: control.budget_clock is true, must come with "
+                "control.budget_us above 0 us");
+}
+
+TEST(PushOptions, RefusesOptionsWithoutEffect) {
+  EXPECT_EQ(Refusal({"--with", "zmp,cop", "--without", "yaw,cop"}),
+            "task 'cop' is in --with and in --without, must be in one of them");
+  const std::string scenario =
+      TestFile("off.yaml", "tasks: {without: [cop]}\n").string();
+  EXPECT_EQ(Refusal({"--scenario", scenario, "--with", "cop"}), "");
+  EXPECT_EQ(Refusal({"--freeze", "1.05,0"}),
+            "--freeze is 1.05,0, must be AT,FOR with FOR above 0 s");
+  EXPECT_EQ(Refusal({"--freeze", "1.05,0.1"}), "");
 }
 
 // A value in the file may be invalid if an option replaces it.

@@ -152,17 +152,18 @@ refuse "scenario 'sneeze' is unknown, must be a file or one of $scenarios" \
   --scenario sneeze
 refuse "scenario '$gone' is unknown, must be a file or one of $scenarios" \
   --scenario "$gone"
+refuse "$TEST_TMPDIR: cannot be read: Is a directory" --scenario "$TEST_TMPDIR"
 refuse_file --scenario ":2: key 'lenght' is unknown, must be one of $(
   )name, duration, seed, chosen_for, start, steps, pushes, stance, com, tasks, control, plant, $(
   )sensors" scenario.yaml 'duration: 3' 'lenght: 4'
 refuse_file --scenario ":1: 'to' is the list '[1]', must be two numbers [x, y] from -1000 to $(
   )1000 m" to.yaml 'stance: [{at: 1, step: left_foot, to: [1]}]'
-refuse_file --scenario ": stance[0].step is 'left_foot', must come with steps: on" \
+refuse_file --scenario ":1: stance[0].step is 'left_foot', must come with steps: on" \
   step.yaml 'stance: [{at: 1, step: left_foot, to: [0, 0.1]}]'
-refuse_file --scenario ": control.rate is 1000, must evenly divide $(
+refuse_file --scenario ":1: control.rate is 1000, must evenly divide $(
   )plant.rate, which is 300" rate.yaml 'plant: {rate: 300}'
 
-refuse "$gone: cannot be read" --robot "$gone"
+refuse "$gone: cannot be read: No such file or directory" --robot "$gone"
 refuse_file --robot ":2: an element is not closed, or its end tag has $(
   )another name" \
   cut.urdf '<robot name="a">' '  <link name="b">'
@@ -171,44 +172,44 @@ refuse_file --robot ":3: joint 'j': has no <limit>, must have one" \
   '<!-- A hinge. -->' \
   '<joint name="j" type="revolute"><parent link="b"/><child link="c"/></joint>' \
   '</robot>'
-refuse "$gone: cannot be read" --profile "$gone"
+refuse "$gone: cannot be read: No such file or directory" --profile "$gone"
 
-refuse "$gone: cannot be read" --pushes "$gone"
+refuse "$gone: cannot be read: No such file or directory" --pushes "$gone"
 refuse_file --pushes ":3: key 'forse' is unknown, must be one of link, $(
   )point, impulse_fraction, elsewhere, frame, profile, force, moment, at, duration" \
   pushes.yaml 'pushes:' '  - force: [0, 50, 0]' '    forse: [0, 50, 0]'
 refuse_file --pushes ":2: 'force' is the list '[0, fifty, 0]', must be a list of finite numbers" \
   pushes.yaml 'pushes:' '  - force: [0, fifty, 0]'
 nose="link 'nose' is unknown, must be a link of robot 'humanoid'"
-refuse_file --pushes ": $nose" pushes.yaml 'pushes: [{link: nose}]'
+refuse_file --pushes ":1: $nose" pushes.yaml 'pushes: [{link: nose}]'
 
 # If a file does not match the robot, the message names the file, and nothing is
 # written.
-refuse_file --scenario ": $nose" link.yaml 'pushes: [{link: nose}]'
-refuse_file --scenario ": task set 'nope': is neither default, paper, nor a file" \
+refuse_file --scenario ":1: $nose" link.yaml 'pushes: [{link: nose}]'
+refuse_file --scenario ":1: task set 'nope': is neither default, paper, nor a file" \
   tasks.yaml 'tasks: {set: nope}'
-refuse_file --scenario ": stance: foot 'nope' is unknown, must be a foot of $(
+refuse_file --scenario ":1: stance: foot 'nope' is unknown, must be a foot of $(
   )robot 'humanoid': left_foot, right_foot" stance.yaml 'stance: [{at: 1, lift: nope}]'
-refuse_file --scenario ": plant: restitution is 0.500000, must be 0 in a MuJoCo $(
+refuse_file --scenario ":1: plant: restitution is 0.500000, must be 0 in a MuJoCo $(
   )plant" \
   bounce.yaml 'plant: {kind: mujoco, restitution: 0.5}'
-refuse_file --scenario ": task set '$(printf 'a%.0s' {1..60})...': is neither $(
+refuse_file --scenario ":1: task set '$(printf 'a%.0s' {1..60})...': is neither $(
   )default, paper, nor a file" \
   long.yaml "tasks: {set: $(printf 'a%.0s' {1..300000})}"
 
 refuse "--force is 'strong', must be a number" --force strong
 refuse "the word after '--force' is empty, must have text" --force ""
 refuse "'--force=' is empty, must have a value" --force= --time 2
-refuse "--time: is nan, must be finite" --time nan
+refuse "--time is nan, must be finite" --time nan
 for seed in 99999999999 -1 1.5 one; do
-  refuse "--seed: is '$seed', must be a whole number from 0 to 4294967295" \
+  refuse "--seed is '$seed', must be a whole number from 0 to 4294967295" \
     --seed "$seed"
 done
 refuse "--force is 1e+09, must be -1e+06 to 1e+06 N" --force 1e9
 refuse "--direction is 400, must be -360 to 360 deg" --direction 400
 refuse "--delay is 0.0005, must be a multiple of the plant's step" \
   --delay 0.0005
-refuse "--plant: mars not in {bullet,mujoco}" --plant mars
+refuse "--plant is 'mars', must be bullet or mujoco" --plant mars
 refuse "link 'nose' is unknown, must be a link of robot 'humanoid'" --link nose
 refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 
@@ -217,7 +218,7 @@ refuse "task set 'none': is neither default, paper, nor a file" --tasks none
 frame="task 'frame.nose' is unknown, must be frame.LINK with a link of the robot"
 refuse "$frame" --with frame.nose
 refuse_file --tasks ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
-refuse_file --scenario ": $frame" frames.yaml 'tasks: {with: [frame.nose]}'
+refuse_file --scenario ":1: $frame" frames.yaml 'tasks: {with: [frame.nose]}'
 refuse_file --profile ":1: $frame" frames.yaml 'tasks: {frame.nose: on}'
 
 # Usage: residuals OPTION...: prints the links of the tasks frame.LINK in the log of

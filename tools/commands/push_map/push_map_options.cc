@@ -13,6 +13,7 @@
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/push/overrides.h"
 #include "poise/tools/commands/push/push_options.h"
 #include "poise/tools/commands/push/warnings.h"
 #include "poise/tools/commands/user_path.h"
@@ -51,7 +52,7 @@ CLI::Validator Between(double least, double most, const std::string& unit) {
         value <= most) {
       return "";
     }
-    return "'" + text + "' must be " + PrintNumber(least) + " to " +
+    return "is " + Quoted(text) + ", must be " + PrintNumber(least) + " to " +
            PrintNumber(most) + " " + unit;
   };
   return CLI::Validator(check, "");
@@ -148,6 +149,7 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   app.add_flag("--json", json, "print the map as JSON");
   ParseCommandLine(argc, argv, &app);
 
+  RefuseBoth(with, without);
   const Shard shard = ParseShard(shard_text);
   if (steps && step_option->count() == 0) step = 0.5;
   const std::vector<std::string> rest = app.remaining();

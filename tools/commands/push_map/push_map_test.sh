@@ -81,7 +81,9 @@ refuse() {
 
 refuse "$TEST_TMPDIR/whole: has a map with other settings, see settings.txt; $(
   )choose another --out" --mu-plant 0.5
+refuse "task 'cop' is in --with and in --without, must be in one of them" \
+  --with cop --without cop
 refuse "--shard is '3/2', must be I/N with 1 <= I <= N" --shard 3/2
 refuse "--force=50 cannot be used here: push_map sets scenario, direction, $(
   )duration and force itself" --force=50
-refuse "--durations: '0' must be 0.001 to 10 s" --durations 0
+refuse "--durations is '0', must be 0.001 to 10 s" --durations 0
