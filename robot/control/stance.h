@@ -87,7 +87,9 @@ class Stance {
   void PutDown(int foot) noexcept;
 
   /// Releases a foot at once: its reference is switched off, and the foot moves
-  /// with the body until PutDown() or Lift() brings it back.
+  /// with the body until PutDown() or Lift() brings it back. A foot that was in
+  /// contact at the last Update() has not moved yet: these calls then end the
+  /// release at once, and the foot is in contact.
   void LetGo(int foot) noexcept;
 
   /// Lifts a foot at once. The caller writes Reference::feet in each tick; the
@@ -121,6 +123,7 @@ class Stance {
     double from = 0, to = 0;  // Start and end height of the swing, m.
     bool has_risen = false;   // Off the ground once in kStepping.
     bool has_flown = false;   // No foot was in contact at a time in this phase.
+    bool has_taken_off = false;  // In the air since an Update(); X_WC is set.
     std::vector<Eigen::Vector2d> polygon_C;
   };
 

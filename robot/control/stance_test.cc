@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "poise/math/so3.h"
 
@@ -472,6 +474,63 @@ TEST_F(StanceTest, PutDownRightAfterReleaseKeepsContact) {
   EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
   Update();
   EXPECT_TRUE(contacts_[0].in_contact);
+}
+
+// A foot that is released in the air does not become a contact, whatever phase
+// it was in. It returns to the place where it took off.
+TEST_F(StanceTest, KeepsFootInAirThatIsReleasedAndCalledBackAtOnce) {
+  const auto lift = [this] {
+    ASSERT_TRUE(stance_.Lift(0, 0.1));
+    while (stance_.phase(0) != ContactPhase::kUp) Update();
+  };
+  const std::pair<ContactPhase, std::function<void()>> cases[] = {
+      {ContactPhase::kUp, lift},
+      {ContactPhase::kLanding,
+       [&] {
+         lift();
+         stance_.PutDown(0);
+       }},
+      {ContactPhase::kLost,
+       [this] {
+         contacts_[0].X_WC.p.z() = 0.1;
+         UpdateForLost();
+       }},
+      {ContactPhase::kFree,
+       [this] {
+         stance_.LetGo(0);
+         Update();
+       }},
+      {ContactPhase::kStepping, [this] {
+         stance_.Step(0);
+         Update();
+       }}};
+  for (const auto& [phase, bring] : cases) {
+    const Vector3d place(0.1 * static_cast<int>(phase), 2, 0);
+    for (const double height : {0.0, 0.05}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(phase) << height);
+      stance_.Reset();
+      contacts_[0].X_WC.p = place;
+      Update();
+      bring();
+      ASSERT_EQ(stance_.phase(0), phase);
+      contacts_[0].X_WC.p = place + Vector3d(0.05, 0.02, 0.1);
+      stance_.LetGo(0);
+      stance_.LetGo(0);
+      if (height > 0) {
+        ASSERT_TRUE(stance_.Lift(0, height));
+      } else {
+        stance_.PutDown(0);
+      }
+      EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
+      for (int i = 0; i < 500; ++i) {
+        Update();
+        ASSERT_FALSE(contacts_[0].in_contact);
+      }
+      // The reference of a foot that is put down ends 5 mm below the ground.
+      const Vector3d end(0, 0, height > 0 ? height : -0.005);
+      EXPECT_LT((reference_.feet[0].X_WF.p - place - end).norm(), 1e-9);
+    }
+  }
 }
 
 TEST_F(StanceTest, FadesForceOutBeforeLift) {
