@@ -87,6 +87,12 @@ bool Bears(ContactPhase phase) {
          phase == ContactPhase::kLoading;
 }
 
+// Whether Stance does not know the path of a foot in this phase. Only a return
+// from the measured pose brings the foot back.
+bool IsAway(ContactPhase phase) {
+  return phase == ContactPhase::kFree || phase == ContactPhase::kStepping;
+}
+
 // Returns the orientation with z up and the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
@@ -222,10 +228,10 @@ void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->has_risen = false;
 }
 
-// Ends the release of a foot. A foot that was in contact at the last Update()
-// has not moved yet: it is simply down again.
+// Ends the release or the step of a foot. A foot that was in contact at the
+// last Update() has not moved yet: it is simply down again.
 void Stance::CallBack(FootState* foot) noexcept {
-  if (foot->phase != ContactPhase::kFree) return;
+  if (!IsAway(foot->phase)) return;
   Enter(foot,
         foot->has_taken_off ? ContactPhase::kReturning : ContactPhase::kDown);
 }
@@ -270,7 +276,7 @@ void Stance::LetGo(int i) noexcept { Enter(&feet_[i], ContactPhase::kFree); }
 
 void Stance::PutDown(int i) noexcept {
   FootState& foot = feet_[i];
-  if (foot.phase == ContactPhase::kFree) {
+  if (IsAway(foot.phase)) {
     CallBack(&foot);
     foot.to = -length_ * kReach;
   } else if (foot.phase == ContactPhase::kReturning) {

@@ -791,5 +791,48 @@ TEST_F(StanceTest, StepLandsOnGroundThatIsHigherThanBelieved) {
     EXPECT_EQ(stance_.phase(0) == ContactPhase::kDown, sinking > 0);
   }
 }
+
+// Lift() and PutDown() end a step: the foot moves from its present pose to the
+// place where it took off, or above it.
+TEST_F(StanceTest, CallsSteppingFootBack) {
+  const Pose away{ExpSo3(Vector3d(0.4, -0.2, 0.1)), Vector3d(1.2, 2.1, 0.1)};
+  for (const double height : {0.0, 0.05}) {
+    SCOPED_TRACE(height);
+    stance_.Reset();
+    contacts_[0].X_WC = {Eigen::Matrix3d::Identity(), Vector3d(1, 2, 0)};
+    Update();
+    stance_.Step(0);
+    Update();
+    contacts_[0].X_WC = away;
+    Update();
+    if (height > 0) {
+      ASSERT_TRUE(stance_.Lift(0, height));
+    } else {
+      stance_.PutDown(0);
+    }
+    EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
+    const Pose& target = reference_.feet[0].X_WF;
+    Update();
+    EXPECT_FALSE(contacts_[0].in_contact);
+    EXPECT_FALSE(contacts_[0].is_stepping);
+    // Tolerance: the minimum-jerk curve moves by 1e-7 of its length in 1 ms.
+    EXPECT_LT((target.p - away.p).norm(), 1e-6);
+    EXPECT_LT((target.R - away.R).norm(), 1e-6);
+    for (int i = 0; i < 500; ++i) Update();
+    const Vector3d end(1, 2, height > 0 ? height : -0.005);
+    EXPECT_LT((target.p - end).norm(), 1e-9);
+    EXPECT_LT((target.R - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+  }
+}
+
+TEST_F(StanceTest, PutDownRightAfterStepKeepsContact) {
+  stance_.Step(0);
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  stance_.Step(0);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kUnloading);
+}
+
 }  // namespace
 }  // namespace poise
