@@ -170,8 +170,11 @@ void Controller::Start(const State& state) noexcept {
   reference_.R_WB = X_WMid.R * X_MidB_.R;
   reference_.posture = robot_.q_nominal.tail(robot_.model.tree.num_joints());
   reference_.ground_z = X_WMid.p.z();
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    reference_.feet[i] = {contacts_[i].X_WC};
+  }
   for (size_t i = 0; i < reference_.frames.size(); ++i) {
-    reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
+    reference_.frames[i] = {tick_.frames[contacts_.size() + i].X_WF};
   }
   stance_.Reset();
   normal_force_.setConstant(weight_);
