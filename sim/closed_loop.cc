@@ -149,7 +149,14 @@ Scenario Fitted(const Robot& robot, const Scenario& scenario) {
               " s, must be above 0 s, because the impulse of the push is a "
               "fraction of the bound");
     }
-    // Whether the push is possible is decided when it begins.
+    if (push.impulse_fraction && !BoundOfPush(robot, robot.q_nominal, push)) {
+      throw InputError::OfValue(
+          Entry("pushes", i) + (push.point ? ".point" : ".link"),
+          " is below the soles, must be above them, because the impulse of the "
+          "push is a fraction of the bound at this height; give the force in "
+          "N");
+    }
+    // Whether the CoM is above the soles is decided when the push begins.
     (void)ApplyFraction(robot, robot.q_nominal, {}, push.force, &push);
   }
   return fitted;
@@ -344,7 +351,8 @@ void ClosedLoop::SizePushes() {
       impossible_.push_back(
           "push at " + PrintNumber(push.start) +
           " s: its force is 0 N, a fraction of a bound of 0 N s, because the "
-          "CoM is not above the soles on the ground; give the force in N");
+          "CoM is not above the soles on the ground, or the push is below the "
+          "soles; give the force in N");
     }
     pushes_[i] = PushOnRobot(robot_, push);
   }

@@ -48,7 +48,8 @@ struct RunResult {
   double impulse_Ns = 0;     ///< Largest push, part within the run.
   double push_duration = 0;  ///< Largest push, s.
   /// Pendulum bound in the direction of the largest push, on the feet that are
-  /// down when the push begins. Empty if the push does not begin.
+  /// down when the push begins. Empty if the push does not begin, or as
+  /// BoundOfPush().
   std::optional<Yardstick> yardstick;
   std::vector<TakenStep> steps;  ///< In order of their lift-offs.
   std::vector<CommandedStep> commanded;
