@@ -57,8 +57,23 @@ auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   }
 }
 
-constexpr char kGaitMovesCom[] =
-    " s: from the first step on, the gait alone moves the CoM";
+constexpr char kGaitMoves[] =
+    " s: from the first step on, the gait alone moves the ";
+
+// Returns what a command of the scenario is, in words.
+std::string Name(const StanceEvent& event) {
+  switch (event.kind) {
+    case StanceEvent::Kind::kLift:
+      return "lift of " + OneLine(event.foot);
+    case StanceEvent::Kind::kPutDown:
+      return "put_down of " + OneLine(event.foot);
+    case StanceEvent::Kind::kShift:
+      return "shift";
+    case StanceEvent::Kind::kStep:
+      return "step of " + OneLine(event.foot);
+  }
+  return "";
+}
 
 std::string Entry(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
@@ -259,10 +274,9 @@ void ClosedLoop::MoveFoot(const StanceEvent& event) {
   }
   // After the first step, the gait alone moves the feet and the CoM.
   if (gait_ != nullptr && gait_->owns_com()) {
-    if (event.kind == StanceEvent::Kind::kShift) {
-      impossible_.push_back("shift at " + PrintNumber(event.at) +
-                            kGaitMovesCom);
-    }
+    const bool shifts = event.kind == StanceEvent::Kind::kShift;
+    impossible_.push_back(Name(event) + " at " + PrintNumber(event.at) +
+                          kGaitMoves + (shifts ? "CoM" : "feet"));
     return;
   }
   switch (event.kind) {
@@ -330,7 +344,7 @@ void ClosedLoop::Tick() {
       !scenario_.com.sine.isZero() || !scenario_.com.cosine.isZero();
   if (!owned_com && gait_ != nullptr && gait_->owns_com() && moves_com) {
     impossible_.push_back("motion of the CoM after " +
-                          PrintNumber(start_.time) + kGaitMovesCom);
+                          PrintNumber(start_.time) + kGaitMoves + "CoM");
   }
   SizePushes();
   StepPlant();
