@@ -41,7 +41,7 @@ struct RunResult {
   int iterations_max = 0;
   double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
   double gap_max = 0;  ///< Largest Certificate::relative_gap of all ticks.
-  int failures = 0;    ///< Ticks with an unsolved level.
+  int failures = 0;    ///< Ticks with TickStatus kTruncated or kFailSafe.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;
