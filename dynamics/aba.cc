@@ -84,9 +84,9 @@ void AddShifted(const Body& B, const Vec3& d, Body* P) {
 
 // Solves [J H; H' M] A = F for the acceleration A of a floating base. The
 // matrix is scaled to unit diagonal by the locked robot's inertia, so that kg
-// m2 and kg are comparable. Returns false if the matrix is singular.
-bool SolveBase(const Body& base, const MassMoments& M_locked,
-               const Force3& push, Vector6d* A) {
+// m2 and kg are comparable.
+AbaStatus SolveBase(const Body& base, const MassMoments& M_locked,
+                    const Force3& push, Vector6d* A) {
   const Body locked = MakeBody(M_locked, base.bias);
   Matrix6d I;
   I << ToEigen(base.J), ToEigen(base.H), ToEigen(base.H).transpose(),
@@ -94,15 +94,16 @@ bool SolveBase(const Body& base, const MassMoments& M_locked,
   Vector6d diagonal;
   diagonal << locked.J.xx, locked.J.yy, locked.J.zz, locked.M.xx, locked.M.yy,
       locked.M.zz;
-  if (!(diagonal.minCoeff() > 0)) return false;
+  if (!I.allFinite() || !diagonal.allFinite()) return AbaStatus::kNotFinite;
+  if (!(diagonal.minCoeff() > 0)) return AbaStatus::kSingular;
   const Vector6d scale = diagonal.cwiseSqrt().cwiseInverse();
   I = scale.asDiagonal() * I * scale.asDiagonal();
   const Eigen::LDLT<Matrix6d> ldlt(I);
-  if (!(ldlt.vectorD().minCoeff() > kRounding)) return false;
+  if (!(ldlt.vectorD().minCoeff() > kRounding)) return AbaStatus::kSingular;
   Vector6d F;
   F << ToEigen(push.angular), ToEigen(push.linear);
   *A = scale.cwiseProduct(ldlt.solve(scale.cwiseProduct(F)));
-  return true;
+  return AbaStatus::kOk;
 }
 
 bool AreFinite(const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -151,12 +152,12 @@ void MakeBodies(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& v,
 //     U = I_b S,   D = S' U + armature,   u = tau_j - S' p_b,
 //     I_b - U U' / D                      and
 //     p_b + (I_b - U U' / D) c + U u / D
-// are added to I and p of the parent, about its origin. Returns false if a
+// are added to I and p of the parent, about its origin. Returns kSingular if a
 // joint has no inertia: D is rounding beside the D of the locked subtree.
-bool EliminateJoints(const Tree& tree,
-                     const Eigen::Ref<const Eigen::VectorXd>& v,
-                     const Eigen::Ref<const Eigen::VectorXd>& tau,
-                     AbaScratch* scratch) {
+AbaStatus EliminateJoints(const Tree& tree,
+                          const Eigen::Ref<const Eigen::VectorXd>& v,
+                          const Eigen::Ref<const Eigen::VectorXd>& tau,
+                          AbaScratch* scratch) {
   const JointMaps& joints = tree.joint_maps();
   const int v0 = tree.v_start();
   const Recursion& r = scratch->recursion;
@@ -168,7 +169,10 @@ bool EliminateJoints(const Tree& tree,
     const double D = Dot(S, U) + joints.armature[b];
     const double locked =
         Dot(S, Momentum(r.M_W[b], S.angular, S.linear)) + joints.armature[b];
-    if (!(D > kRounding * locked)) return false;
+    if (!std::isfinite(D) || !std::isfinite(locked)) {
+      return AbaStatus::kNotFinite;
+    }
+    if (!(D > kRounding * locked)) return AbaStatus::kSingular;
     const double u = tau[v0 + b - 1] - Dot(S, body.bias);
     scratch->U[b] = U;
     scratch->D[b] = D;
@@ -181,17 +185,16 @@ bool EliminateJoints(const Tree& tree,
                 Force3{(u / D) * U.angular, (u / D) * U.linear};
     AddShifted(body, r.p_PB_W[b], &bodies[joints.parent[b]]);
   }
-  return true;
+  return AbaStatus::kOk;
 }
 
 // Step 3 computes the acceleration of the base less gravity, into body 0 of the
 // recursion. A base at rest has A_0 = [0; -g].
 //     A_0 = I_0^-1 ([n; f] of tau - p_0),   v̇_0 = A_0 + [0; g]   if it floats.
-// Returns false if I_0 is singular.
-bool ComputeBaseAcceleration(const Tree& tree,
-                             const Eigen::Ref<const Eigen::VectorXd>& tau,
-                             AbaScratch* scratch,
-                             Eigen::Ref<Eigen::VectorXd> vdot) {
+AbaStatus ComputeBaseAcceleration(const Tree& tree,
+                                  const Eigen::Ref<const Eigen::VectorXd>& tau,
+                                  AbaScratch* scratch,
+                                  Eigen::Ref<Eigen::VectorXd> vdot) {
   Recursion& r = scratch->recursion;
   const Vec3 g_W = ToVec3(tree.gravity_W());
   Motion3 A_0{{0, 0, 0}, -1 * g_W};
@@ -200,14 +203,15 @@ bool ComputeBaseAcceleration(const Tree& tree,
     const Force3 push{ToVec3(tau.head<3>()) - bias.angular,
                       ToVec3(tau.segment<3>(3)) - bias.linear};
     Vector6d A;
-    if (!SolveBase(scratch->bodies[0], r.M_W[0], push, &A)) return false;
+    const AbaStatus status = SolveBase(scratch->bodies[0], r.M_W[0], push, &A);
+    if (status != AbaStatus::kOk) return status;
     A_0 = {ToVec3(A.head<3>()), ToVec3(A.tail<3>())};
     vdot.head<3>() = A.head<3>();
     vdot.segment<3>(3) = A.tail<3>() + tree.gravity_W();
   }
   r.alpha_WB.Set(0, A_0.angular);
   r.a_WB.Set(0, A_0.linear);
-  return true;
+  return AbaStatus::kOk;
 }
 
 // Step 4 computes the accelerations of the joints from the base to the leaves,
@@ -261,12 +265,10 @@ AbaStatus ComputeAba(const Tree& tree,
   SweepPoses(tree, q, &scratch->recursion);
   if (!std::isfinite(r.R_WB[0].x.x)) return fail(AbaStatus::kNotFinite);
   MakeBodies(tree, v, F_Bo_W, scratch);
-  if (!EliminateJoints(tree, v, tau, scratch)) {
-    return fail(AbaStatus::kSingular);
-  }
-  if (!ComputeBaseAcceleration(tree, tau, scratch, vdot)) {
-    return fail(AbaStatus::kSingular);
-  }
+  AbaStatus status = EliminateJoints(tree, v, tau, scratch);
+  if (status != AbaStatus::kOk) return fail(status);
+  status = ComputeBaseAcceleration(tree, tau, scratch, vdot);
+  if (status != AbaStatus::kOk) return fail(status);
   ComputeJointAccelerations(tree, v, scratch, vdot);
   if (!vdot.allFinite()) return fail(AbaStatus::kNotFinite);
   return AbaStatus::kOk;

@@ -17,8 +17,8 @@ enum class AbaStatus {
   /// example of a joint with a massless body. vdot is NaN. Give the body a mass
   /// or the joint an armature, or lock the joint.
   kSingular,
-  /// An input is not finite, the base's quaternion is 0, or the result
-  /// overflows. vdot is NaN.
+  /// An input is not finite, the base's quaternion is 0, or an inertia or the
+  /// result overflows. vdot is NaN.
   kNotFinite,
 };
 

@@ -261,6 +261,41 @@ TEST(Aba, ReportsInputThatIsNotFinite) {
   EXPECT_EQ(status_of(q, bad, zero, 0), AbaStatus::kNotFinite);
 }
 
+// A link at 1e200 m has a moment of inertia beyond the largest double, about
+// joint 1 and about a floating base.
+TEST(Aba, ReportsInertiaThatOverflowsAsNotFinite) {
+  for (const BaseType base : {BaseType::kFixed, BaseType::kFloating}) {
+    for (const JointType first : {JointType::kRevolute, JointType::kFixed}) {
+      if (base == BaseType::kFixed && first == JointType::kFixed) continue;
+      SCOPED_TRACE(testing::Message() << (base == BaseType::kFixed)
+                                      << (first == JointType::kFixed));
+      TreeBuilder builder;
+      builder.AddLink("base", kLink).AddLink("upper", kLink);
+      builder.AddLink("lower", kLink);
+      JointSpec joint;
+      joint.type = first;
+      joint.axis_F = Vector3d::UnitZ();
+      joint.name = "1";
+      joint.parent = "base";
+      joint.child = "upper";
+      builder.AddJoint(joint);
+      joint.type = JointType::kPrismatic;
+      joint.axis_F = Vector3d::UnitX();
+      joint.name = "2";
+      joint.parent = "upper";
+      joint.child = "lower";
+      builder.AddJoint(joint);
+      const Tree tree = builder.Build(base);
+      VectorXd q = tree.MakeNeutral();
+      q[q.size() - 1] = 1e200;
+      const Forward forward = AbaOf(tree, q, VectorXd::Zero(tree.nv()),
+                                    VectorXd::Zero(tree.nv()), {});
+      EXPECT_EQ(forward.status, AbaStatus::kNotFinite);
+      EXPECT_TRUE(forward.vdot.array().isNaN().all());
+    }
+  }
+}
+
 TEST(Aba, DoesNotAllocate) {
   const TreeMotion m =
       MakeTreeMotion({TreeShape::kAny, BaseType::kFloating, 12, 1});

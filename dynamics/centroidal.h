@@ -77,7 +77,7 @@ void ComputeCentroidalMomentum(const Tree& tree,
 ///
 /// @pre The tree has a floating base; M and c belong to one state (q, v), and
 /// p_BoG_W to its q.
-/// Costs 12 (nv + 1) flops. Does not allocate, does not throw.
+/// Costs 18 (nv + 1) flops. Does not allocate, does not throw.
 ///
 /// This function is for callers that have M. The controller runs step 3 of
 /// ComputeTick(), ComputeCentroidalDynamics, instead; the test

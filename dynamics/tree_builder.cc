@@ -1,5 +1,4 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "poise/dynamics/simd/mass_moments.h"
 #include "poise/dynamics/tree.h"
+#include "poise/math/inertia.h"
 #include "poise/math/so3.h"
 
 namespace poise {
@@ -69,8 +69,7 @@ void CheckLink(const std::string& name, bool is_physical, Inertia* M_L) {
            "zero where the mass is");
   }
   if (defect == InertiaDefect::kNotPositive) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(M.I_G_B);
-    Refuse(link, "least principal moment", moments.eigenvalues()[0],
+    Refuse(link, "least principal moment", PrincipalMoments(M.I_G_B)[0],
            "zero or positive");
   }
 }

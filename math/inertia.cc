@@ -65,6 +65,15 @@ Matrix6d Matrix6FromInertia(const Inertia& M_B) noexcept {
   return M;
 }
 
+Eigen::Vector3d PrincipalMoments(const Eigen::Matrix3d& I_G) noexcept {
+  if (!I_G.allFinite()) {
+    return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I_G,
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
 InertiaDefect FindDefect(const Inertia& M_B) noexcept {
   const Eigen::Matrix3d& I = M_B.I_G_B;
   if (!std::isfinite(M_B.mass) || !M_B.p_BoG_B.allFinite() || !I.allFinite()) {
@@ -76,10 +85,7 @@ InertiaDefect FindDefect(const Inertia& M_B) noexcept {
   if ((I - I.transpose()).cwiseAbs().maxCoeff() > tolerance) {
     return InertiaDefect::kNotSymmetric;
   }
-  // Ascending.
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::Vector3d moments = PrincipalMoments(I);
   if (moments[0] < -tolerance) return InertiaDefect::kNotPositive;
   if (moments[2] > moments[0] + moments[1] + tolerance) {
     return InertiaDefect::kTriangle;

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -186,6 +187,47 @@ TEST(Inertia, SumOfTwoMassesHasTheReducedMassBetweenThem) {
   EXPECT_EQ(sum.I_G_B, expected);
 }
 
+// Viète's formulas: the moments are the roots of det(I - x 1).
+RC_GTEST_PROP(PrincipalMoments, AreTheRootsOfTheCharacteristicPolynomial, ()) {
+  const Matrix3d I = (*Inertias()).I_G_B;
+  const Vector3d x = PrincipalMoments(I);
+  const double scale = I.norm();
+  const double minors = (std::pow(I.trace(), 2) - (I * I).trace()) / 2;
+  RC_ASSERT(std::abs(x.sum() - I.trace()) <= Rounding(scale, 8));
+  RC_ASSERT(std::abs(x[0] * x[1] + x[0] * x[2] + x[1] * x[2] - minors) <=
+            Rounding(scale * scale, 16));
+  RC_ASSERT(std::abs(x.prod() - I.determinant()) <=
+            Rounding(scale * scale * scale, 24));
+}
+
+// Also moments of no body, negative and equal ones.
+RC_GTEST_PROP(PrincipalMoments, DoNotDependOnTheAxes, ()) {
+  Vector3d moments = *Vectors();
+  const Matrix3d R = *Rotations();
+  const Vector3d found =
+      PrincipalMoments(R * moments.asDiagonal() * R.transpose());
+  std::sort(moments.begin(), moments.end());
+  RC_ASSERT((found - moments).norm() <= Rounding(moments.norm(), 24));
+}
+
+TEST(PrincipalMoments, AreAscendingForABox) {
+  // A box of 12 kg with the edges 3, 1 and 2 m: m / 12 (b² + c²).
+  const Vector3d moments(1 + 4, 9 + 4, 9 + 1);
+  const Vector3d found = PrincipalMoments(moments.asDiagonal());
+  EXPECT_LE((found - Vector3d(5, 10, 13)).norm(), Rounding(13, 3));
+}
+
+TEST(PrincipalMoments, AreNanIfAnEntryIsNotFinite) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), infinity, -infinity}) {
+    for (int i = 0; i < 9; ++i) {
+      Matrix3d I = Matrix3d::Identity();
+      I(i) = bad;
+      EXPECT_TRUE(PrincipalMoments(I).array().isNaN().all()) << bad << i;
+    }
+  }
+}
+
 RC_GTEST_PROP(FindDefect, AcceptsAPhysicalBody, ()) {
   RC_ASSERT(FindDefect(*Inertias()) == InertiaDefect::kNone);
   const Inertia M = Assemble(*Particles());
@@ -299,12 +341,14 @@ TEST(Inertia, AllocatesAndThrowsNothing) {
   CountMalloc count;
   const double energy = KineticEnergy(X * M + M, V) + Dot(V, M * V);
   const Matrix6d matrix = Matrix6FromInertia(M);
+  const Vector3d moments = PrincipalMoments(M.I_G_B);
   const InertiaDefect defect = FindDefect(M);
   EXPECT_EQ(count.allocations(), 0);
-  EXPECT_GT(energy + matrix.trace(), 0);
+  EXPECT_GT(energy + matrix.trace() + moments.sum(), 0);
   EXPECT_EQ(defect, InertiaDefect::kNone);
   static_assert(noexcept(KineticEnergy(M, V))&& noexcept(M * V));
   static_assert(noexcept(Matrix6FromInertia(M))&& noexcept(FindDefect(M)));
+  static_assert(noexcept(PrincipalMoments(M.I_G_B)));
   static_assert(noexcept(M + M)&& noexcept(X * M)&& noexcept(X.R * M));
 }
 

@@ -13,10 +13,10 @@ namespace poise {
 /// Returns R = Rz(yaw) Ry(pitch) Rx(roll) for rpy = (roll, pitch, yaw).
 Eigen::Matrix3d MatrixFromRpy(const Eigen::Vector3d& rpy) noexcept;
 
-/// Returns rpy of R, the inverse of MatrixFromRpy(), with |pitch| <= π/2 and
-/// |roll|,
-/// |yaw| <= π. If R(2, 1) = R(2, 2) = 0 (pitch exactly ± π/2), roll and yaw are not
-/// unique, and roll is 0. A NaN or an infinity gives NaN in all components.
+/// Returns rpy of R, the inverse of MatrixFromRpy(), with |pitch| <= π/2, and
+/// with roll and yaw in [-π, π]. If R(2, 1) = R(2, 2) = 0 (pitch exactly ± π/2),
+/// roll and yaw are not unique, and roll is 0. A NaN or an infinity gives NaN in
+/// all components.
 Eigen::Vector3d RpyFromMatrix(const Eigen::Matrix3d& R) noexcept;
 
 }  // namespace poise

@@ -13,10 +13,9 @@ namespace poise {
 //     Ṙ = Hat(J_l(w) ẇ) R = R Hat(J_r(w) ẇ),
 //     exp(Hat(w + d)) = exp(Hat(J_l(w) d)) R + O(|d|²).
 //
-// The error of all four functions is at most 8 eps in the norm of the result,
-// for
-// |w| from 1e-300 to 4 π. The error of the inverses, which exist for |w| < 2 π, is
-// larger by the factor max(1, |w| / |2 π - |w||). See
+// For |w| from 1e-300 to 4 π, the error of all four functions is at most 8 eps
+// in the norm of the result. The error of the inverses, which exist for
+// |w| < 2 π, is larger by the factor max(1, |w| / |2 π - |w||). See
 // docs/generated/accuracy.md. A NaN, an infinity or |w| > 1e154 gives NaN.
 // About 60 flops; no allocation.
 

@@ -22,11 +22,10 @@ struct Stumpff {
 /// forms; θ = 1.58 rad.
 ///
 /// Both must be accurate at the switch. Above, c3 is (1 - c1) / s and dc3 is
-/// (c2 - 3 c3) / s: an error e of c1 becomes e/s and 3 e/s², so s must be at
-/// least
-/// 1. Below, c1 is 1 - s c3, which loses no digits for s c3 < 1/2, that is s < 3.4.
-/// The quaternion of a rotation by at most π needs s up to (π/2)² = 2.47. With
-/// the switch above this value it needs no sine.
+/// (c2 - 3 c3) / s: an error e of c1 becomes e/s and 3 e/s², so that s >= 1 is
+/// needed. Below, c1 is 1 - s c3, which loses no digits for s c3 < 1/2, that is
+/// s < 3.4. The quaternion of a rotation by at most π needs s up to (π/2)² =
+/// 2.47. With the switch above this value it needs no sine.
 constexpr double kStumpffSwitch = 2.5;
 
 /// StumpffSeries computes c1 to c6 by their series, for 0 <= s <

@@ -4,10 +4,11 @@
 // proportions of HRP-4.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "poise/dynamics/tick.h"
+#include "poise/math/inertia.h"
 #include "poise/robot/profile/profile.h"
 #include "poise/robot/robot.h"
 #include "poise/tests/util/load_humanoid.h"
@@ -116,8 +117,7 @@ TEST_F(Humanoid, HasPhysicalInertias) {
     SCOPED_TRACE(b == 0 ? "base" : tree.joints()[b - 1].name);
     const Inertia& M = tree.inertias()[b];
     EXPECT_GE(M.mass, 0.004 * (1 - 1e-9));  // The mass of a finger link.
-    const Eigen::Vector3d moments =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(M.I_G_B).eigenvalues();
+    const Eigen::Vector3d moments = PrincipalMoments(M.I_G_B);
     EXPECT_GT(moments[0], 0);
     EXPECT_GT(moments[0] + moments[1], moments[2]);
   }

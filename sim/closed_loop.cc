@@ -57,8 +57,23 @@ auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
   }
 }
 
-constexpr char kGaitMovesCom[] =
-    " s: from the first step on, the gait alone moves the CoM";
+constexpr char kGaitMoves[] =
+    " s: from the first step on, the gait alone moves the ";
+
+// Returns what a command of the scenario is, in words.
+std::string Name(const StanceEvent& event) {
+  switch (event.kind) {
+    case StanceEvent::Kind::kLift:
+      return "lift of " + OneLine(event.foot);
+    case StanceEvent::Kind::kPutDown:
+      return "put_down of " + OneLine(event.foot);
+    case StanceEvent::Kind::kShift:
+      return "shift";
+    case StanceEvent::Kind::kStep:
+      return "step of " + OneLine(event.foot);
+  }
+  return "";
+}
 
 std::string Entry(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
@@ -149,7 +164,14 @@ Scenario Fitted(const Robot& robot, const Scenario& scenario) {
               " s, must be above 0 s, because the impulse of the push is a "
               "fraction of the bound");
     }
-    // Whether the push is possible is decided when it begins.
+    if (push.impulse_fraction && !BoundOfPush(robot, robot.q_nominal, push)) {
+      throw InputError::OfValue(
+          Entry("pushes", i) + (push.point ? ".point" : ".link"),
+          " is below the soles, must be above them, because the impulse of the "
+          "push is a fraction of the bound at this height; give the force in "
+          "N");
+    }
+    // Whether the CoM is above the soles is decided when the push begins.
     (void)ApplyFraction(robot, robot.q_nominal, {}, push.force, &push);
   }
   return fitted;
@@ -252,10 +274,9 @@ void ClosedLoop::MoveFoot(const StanceEvent& event) {
   }
   // After the first step, the gait alone moves the feet and the CoM.
   if (gait_ != nullptr && gait_->owns_com()) {
-    if (event.kind == StanceEvent::Kind::kShift) {
-      impossible_.push_back("shift at " + PrintNumber(event.at) +
-                            kGaitMovesCom);
-    }
+    const bool shifts = event.kind == StanceEvent::Kind::kShift;
+    impossible_.push_back(Name(event) + " at " + PrintNumber(event.at) +
+                          kGaitMoves + (shifts ? "CoM" : "feet"));
     return;
   }
   switch (event.kind) {
@@ -323,7 +344,7 @@ void ClosedLoop::Tick() {
       !scenario_.com.sine.isZero() || !scenario_.com.cosine.isZero();
   if (!owned_com && gait_ != nullptr && gait_->owns_com() && moves_com) {
     impossible_.push_back("motion of the CoM after " +
-                          PrintNumber(start_.time) + kGaitMovesCom);
+                          PrintNumber(start_.time) + kGaitMoves + "CoM");
   }
   SizePushes();
   StepPlant();
@@ -344,7 +365,8 @@ void ClosedLoop::SizePushes() {
       impossible_.push_back(
           "push at " + PrintNumber(push.start) +
           " s: its force is 0 N, a fraction of a bound of 0 N s, because the "
-          "CoM is not above the soles on the ground; give the force in N");
+          "CoM is not above the soles on the ground, or the push is below the "
+          "soles; give the force in N");
     }
     pushes_[i] = PushOnRobot(robot_, push);
   }

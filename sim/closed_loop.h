@@ -72,7 +72,9 @@ class ClosedLoop {
   /// The steps that the scenario has commanded up to now.
   const std::vector<CommandedStep>& commanded() const { return commanded_; }
   /// In words: the pushes up to now that are a fraction of a bound of 0, and
-  /// motions of the center of mass that the gait has ended.
+  /// the shifts, lifts, put_downs and motions of the center of mass that were
+  /// not executed, because from the first step on the gait alone moves the feet
+  /// and the center of mass.
   const std::vector<std::string>& impossible() const { return impossible_; }
   const Plant& plant() const { return *plant_; }
 

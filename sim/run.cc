@@ -119,6 +119,39 @@ std::vector<std::string> MissedSteps(const Scenario& scenario,
   return missed;
 }
 
+// Writes not_done and commanded_done from the commands of a run that has ended.
+void JudgeCommands(const ClosedLoop& loop, const CommandWatch& watch,
+                   RunResult* result) {
+  const Scenario& scenario = loop.scenario();
+  const auto is_step = [](const StanceEvent& event) {
+    return event.kind == StanceEvent::Kind::kStep;
+  };
+  if (std::any_of(scenario.stance.begin(), scenario.stance.end(), is_step)) {
+    result->not_done = MissedSteps(scenario, *result);
+    result->commanded_done = result->not_done.empty();
+  }
+  // A robot that fell early has missed the commands that followed.
+  const double end = result->interrupted ? result->duration : scenario.duration;
+  if (watch.has_command(end)) {
+    for (const std::string& missed : watch.Missed(end)) {
+      result->not_done.push_back(missed);
+    }
+    result->commanded_done = result->not_done.empty();
+  }
+  for (const std::string& missed : loop.impossible()) {
+    result->not_done.push_back(missed);
+    result->commanded_done = false;
+  }
+}
+
+// Returns after how many ticks progress() is called: at least 100 times per run,
+// and at least every 1000 plant steps. So a run with many or slow ticks can be
+// stopped quickly, too.
+long TicksBetweenReports(const Scenario& scenario, long ticks) {
+  const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
+  return std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
+}
+
 }  // namespace
 
 std::string FellBy(const RunResult& result) {
@@ -147,10 +180,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   // In the nominal posture the robot stands on the ground.
   Judge judge(StandingHeight(robot), scenario.steps);
   const long ticks = std::lround(scenario.duration / scenario.control.dt);
-  // Calls progress() at least 100 times per run, and at least every 1000 plant
-  // steps. So a run with many or slow ticks can be stopped quickly, too.
-  const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
-  const long between = std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));
+  const long between = TicksBetweenReports(scenario, ticks);
   std::vector<float> us, modelled_us;
   us.reserve(ticks);
   modelled_us.reserve(ticks);
@@ -197,25 +227,7 @@ RunResult Run(ClosedLoop* loop, const std::filesystem::path& folder,
   if (TooShortAfterPushes(scenario, result)) result.verdict.recovered = false;
   result.steps = step_watch.steps();
   result.commanded = loop->commanded();
-  const auto is_step = [](const StanceEvent& event) {
-    return event.kind == StanceEvent::Kind::kStep;
-  };
-  if (std::any_of(scenario.stance.begin(), scenario.stance.end(), is_step)) {
-    result.not_done = MissedSteps(scenario, result);
-    result.commanded_done = result.not_done.empty();
-  }
-  // A robot that fell early has missed the commands that followed.
-  const double end = result.interrupted ? result.duration : scenario.duration;
-  if (command_watch.has_command(end)) {
-    for (const std::string& missed : command_watch.Missed(end)) {
-      result.not_done.push_back(missed);
-    }
-    result.commanded_done = result.not_done.empty();
-  }
-  for (const std::string& missed : loop->impossible()) {
-    result.not_done.push_back(missed);
-    result.commanded_done = false;
-  }
+  JudgeCommands(*loop, command_watch, &result);
   result.tick_us = Summarize(std::move(us));
   result.modelled_us = Summarize(std::move(modelled_us));
   if (recorder != nullptr) {

@@ -41,14 +41,15 @@ struct RunResult {
   int iterations_max = 0;
   double certificate_max = 0;  ///< Largest of all ticks, hqp/certificate.h.
   double gap_max = 0;  ///< Largest Certificate::relative_gap of all ticks.
-  int failures = 0;    ///< Ticks with an unsolved level.
+  int failures = 0;    ///< Ticks with TickStatus kTruncated or kFailSafe.
   double joint_limit_violation_peak = 0;   ///< rad or m.
   double torque_limit_violation_peak = 0;  ///< N m or N.
   int self_contact_ticks = 0;
   double impulse_Ns = 0;     ///< Largest push, part within the run.
   double push_duration = 0;  ///< Largest push, s.
   /// Pendulum bound in the direction of the largest push, on the feet that are
-  /// down when the push begins. Empty if the push does not begin.
+  /// down when the push begins. Empty if the push does not begin, or as
+  /// BoundOfPush().
   std::optional<Yardstick> yardstick;
   std::vector<TakenStep> steps;  ///< In order of their lift-offs.
   std::vector<CommandedStep> commanded;

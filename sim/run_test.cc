@@ -8,9 +8,11 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <string>
 #include <thread>
 #include <utility>
 
+#include "poise/robot/input_error.h"
 #include "poise/sim/log/summary.h"
 #include "poise/sim/story_fixture.h"
 #include "poise/tests/util/shared_data.h"
@@ -257,6 +259,24 @@ TEST(ClosedLoop, RejectsAFractionOfABoundInNoTime) {
   EXPECT_NO_THROW(ClosedLoop(Humanoid(), scenario));
   scenario.pushes[0].impulse_fraction = 0.3;
   EXPECT_THROW(ClosedLoop(Humanoid(), scenario), std::invalid_argument);
+}
+
+TEST(ClosedLoop, RejectsAFractionOfABoundBelowTheSoles) {
+  Scenario scenario = Ours("stand", 0.3);
+  scenario.pushes.emplace_back();
+  scenario.pushes[0].force = {0, 20, 0};
+  scenario.pushes[0].point = Eigen::Vector3d(0, 0, -2);
+  EXPECT_NO_THROW(ClosedLoop(Humanoid(), scenario));
+  scenario.pushes[0].impulse_fraction = 0.3;
+  try {
+    const ClosedLoop loop(Humanoid(), scenario);
+    FAIL() << "accepted a push below the soles";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.field(), "pushes[0].point");
+    EXPECT_NE(std::string(error.what()).find("is below the soles"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 // The push begins in the second half of a tick, in which it already acts. The

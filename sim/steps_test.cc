@@ -3,6 +3,7 @@
 // The robot steps if it has to, and only then.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -191,17 +192,29 @@ TEST(Steps, CatchAPushDuringACommandedStep) {
   }
 }
 
-// After the first step the feet belong to the gait: what the scenario wants of
-// them is left out.
-TEST(Steps, EndTheStanceOfTheScenario) {
+// After the first step the feet belong to the gait. The run reports each command
+// that is left out.
+TEST(Steps, EndTheStanceOfTheScenarioAndSaySo) {
   Scenario scenario = Shove(40, 0);
   StanceEvent lift;
   lift.kind = StanceEvent::Kind::kLift;
   lift.at = 3;
   lift.foot = Humanoid().feet[0].name;
-  scenario.stance = {lift};
+  StanceEvent put_down = lift;
+  put_down.kind = StanceEvent::Kind::kPutDown;
+  put_down.at = 3.5;
+  scenario.stance = {lift, put_down};
   const RunResult result = poise::Run(Humanoid(), scenario);
   EXPECT_TRUE(result.verdict.recovered);
+  EXPECT_EQ(result.commanded_done, false);
+  for (const std::string what :
+       {"lift of left_foot at 3", "put_down of left_foot at 3.5"}) {
+    const std::string message =
+        what + " s: from the first step on, the gait alone moves the feet";
+    EXPECT_EQ(
+        std::count(result.not_done.begin(), result.not_done.end(), message), 1)
+        << what;
+  }
 }
 
 }  // namespace

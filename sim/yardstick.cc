@@ -50,10 +50,12 @@ Yardstick ComputeYardstick(double mass, double gravity,
   return {lipm_Ns, lipm_Ns * com.z() / push_height};
 }
 
-Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
-                           const Eigen::Vector2d& u, double duration, int body,
-                           const Eigen::Vector3d& p_BoQ_B,
-                           const std::vector<bool>& down) {
+std::optional<Yardstick> ComputeYardstick(const Robot& robot,
+                                          const Eigen::VectorXd& q,
+                                          const Eigen::Vector2d& u,
+                                          double duration, int body,
+                                          const Eigen::Vector3d& p_BoQ_B,
+                                          const std::vector<bool>& down) {
   const Tree& tree = robot.model.tree;
   Tick tick(tree, {});
   ComputeTick(tree, q, Eigen::VectorXd::Zero(tree.nv()), &tick);
@@ -70,11 +72,11 @@ Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
       soles.push_back(p_WQ.head<2>());
     }
   }
-  const Eigen::Vector3d up = ground * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d p_WQ = tick.X_WB[body] * p_BoQ_B;
-  return ComputeYardstick(tree.total_mass(), tree.gravity_W().norm(),
-                          tick.p_WG - up, soles, u, duration,
-                          p_WQ.z() - ground);
+  const Eigen::Vector3d com = tick.p_WG - ground * Eigen::Vector3d::UnitZ();
+  const double push_height = (tick.X_WB[body] * p_BoQ_B).z() - ground;
+  if (!(com.z() > 0 && push_height > 0)) return std::nullopt;
+  return ComputeYardstick(tree.total_mass(), tree.gravity_W().norm(), com,
+                          soles, u, duration, push_height);
 }
 
 }  // namespace poise

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "poise/robot/robot.h"
@@ -24,11 +25,11 @@ struct Yardstick {
 ///
 /// @param mass      m, kg.
 /// @param gravity   g > 0, m/s2.
-/// @param com       center of mass, z above the soles, m.
+/// @param com       center of mass, z > 0 above the soles, m.
 /// @param soles     corners of all soles on the ground, m, in any order.
 /// @param u         horizontal direction of the push, of any length but 0.
 /// @param duration  T of a constant force, s; 0 for an impulse.
-/// @param push_height  z_p, height of the force above the soles, m.
+/// @param push_height  z_p > 0, height of the force above the soles, m.
 ///
 /// Both are 0 if the center of mass lies outside the convex hull of the soles.
 /// Source: Koolen et al., "Capturability-based analysis ...", IJRR 31(9), 2012,
@@ -41,10 +42,13 @@ Yardstick ComputeYardstick(double mass, double gravity,
 
 /// Returns the yardstick of a robot in the configuration q, pushed at the point
 /// Q of a body. Heights are above its lowest sole. `down` marks the feet on the
-/// ground; empty means all.
-Yardstick ComputeYardstick(const Robot& robot, const Eigen::VectorXd& q,
-                           const Eigen::Vector2d& u, double duration, int body,
-                           const Eigen::Vector3d& p_BoQ_B,
-                           const std::vector<bool>& down = {});
+/// ground; empty means all. Returns nothing unless Q and the center of mass are
+/// above the lowest sole: no pendulum then has a bound.
+std::optional<Yardstick> ComputeYardstick(const Robot& robot,
+                                          const Eigen::VectorXd& q,
+                                          const Eigen::Vector2d& u,
+                                          double duration, int body,
+                                          const Eigen::Vector3d& p_BoQ_B,
+                                          const std::vector<bool>& down = {});
 
 }  // namespace poise

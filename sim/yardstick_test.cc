@@ -67,7 +67,7 @@ TEST(Yardstick, UsesTheSolesOfARobotInItsConfiguration) {
   Eigen::VectorXd q(7);
   q << 3, 4, 5, 0, 0, 0, 1;
   const Yardstick yardstick =
-      ComputeYardstick(robot, q, {0, 1}, 0, 0, {0, 0, 0.25});
+      ComputeYardstick(robot, q, {0, 1}, 0, 0, {0, 0, 0.25}).value();
   EXPECT_NEAR(yardstick.lipm_Ns, 10 * std::sqrt(9.81 / 0.5) * 0.15, 1e-12);
   EXPECT_NEAR(yardstick.lipm_height_Ns, yardstick.lipm_Ns * 0.5 / 0.75, 1e-12);
 }
@@ -83,7 +83,7 @@ TEST(Yardstick, UsesOnlyTheFeetThatAreDown) {
   Eigen::VectorXd q(7);
   q << 0, 0, 5, 0, 0, 0, 1;
   const auto reach = [&](const std::vector<bool>& down, double y) {
-    return ComputeYardstick(robot, q, {0, y}, 0, 0, {0, 0, 0}, down).lipm_Ns /
+    return ComputeYardstick(robot, q, {0, y}, 0, 0, {0, 0, 0}, down)->lipm_Ns /
            (10 * std::sqrt(9.81 / 0.5));
   };
   EXPECT_NEAR(reach({}, 1), 0.2, 1e-12);
@@ -91,6 +91,22 @@ TEST(Yardstick, UsesOnlyTheFeetThatAreDown) {
   EXPECT_NEAR(reach({true, false}, 1), 0.2, 1e-12);
   EXPECT_NEAR(reach({true, false}, -1), 0, 1e-12);
   EXPECT_EQ(reach({false, false}, 1), 0);
+}
+
+// The block is 1 m high, and its sole is 0.5 m below its center.
+TEST(Yardstick, IsEmptyForPushOrCenterOfMassBelowTheSoles) {
+  const Robot robot = MakeBlock({0.2, 0.3, 1}, 10);
+  Eigen::VectorXd upright(7), upside_down(7);
+  upright << 3, 4, 5, 0, 0, 0, 1;
+  upside_down << 3, 4, 5, 1, 0, 0, 0;
+  const auto yardstick = [&](const Eigen::VectorXd& q, double z) {
+    return ComputeYardstick(robot, q, {0, 1}, 0, 0, {0, 0, z});
+  };
+  EXPECT_TRUE(yardstick(upright, -0.49));
+  EXPECT_FALSE(yardstick(upright, -0.5));
+  EXPECT_FALSE(yardstick(upright, -0.6));
+  EXPECT_FALSE(yardstick(upright, std::nan("")));
+  EXPECT_FALSE(yardstick(upside_down, -0.6));  // The push is above, G below.
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace poise {
 
 /// A capsule: all points within `radius` of a segment. A sphere is a capsule
 /// whose ends coincide. The frame of the points is said where a capsule is
-/// stored; CollisionBody has the frame of the body.
+/// stored; CollisionModel::capsules has the frames of the bodies.
 struct Capsule {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< m.
   Eigen::Vector3d end = Eigen::Vector3d::Zero();    ///< m.

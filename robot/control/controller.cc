@@ -170,8 +170,11 @@ void Controller::Start(const State& state) noexcept {
   reference_.R_WB = X_WMid.R * X_MidB_.R;
   reference_.posture = robot_.q_nominal.tail(robot_.model.tree.num_joints());
   reference_.ground_z = X_WMid.p.z();
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    reference_.feet[i] = {contacts_[i].X_WC};
+  }
   for (size_t i = 0; i < reference_.frames.size(); ++i) {
-    reference_.frames[i].X_WF = tick_.frames[contacts_.size() + i].X_WF;
+    reference_.frames[i] = {tick_.frames[contacts_.size() + i].X_WF};
   }
   stance_.Reset();
   normal_force_.setConstant(weight_);
@@ -327,7 +330,7 @@ void Controller::LimitTorque(Command* command) noexcept {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];
     if (!std::isfinite(tau)) tau = 0;  // Never send NaN or infinity to a motor.
-    if (!(limit >= 0)) continue;       // The robot file gives no limit.
+    if (!std::isfinite(limit)) continue;  // The robot file gives no limit.
     // For a joint without a motor (limit 0), the scale of the row is 1 N m.
     const double row_scale = limit > 0 ? limit : 1;
     const double slack = (std::abs(tau) - limit) / row_scale;

@@ -14,6 +14,7 @@
 
 #include "poise/dynamics/integrate.h"
 #include "poise/hqp/certificate.h"
+#include "poise/math/so3.h"
 #include "poise/robot/control/bolted_down_fixture.h"
 #include "poise/robot/control/controller_fixture.h"
 #include "poise/robot/control/torque.h"
@@ -183,10 +184,25 @@ TEST_F(ControllerTest, StartSetsReferencesToPresentState) {
   controller.reference().v_WG << 1, 2, 3;
   controller.reference().a_WG << 1, 2, 3;
   controller.reference().posture.setZero();
+  FrameReference moving{{ExpSo3({0.1, 0, 0}), {1, 2, 3}}};
+  moving.V_WF_W.setOnes();
+  moving.A_WF_W.setOnes();
+  controller.reference().frames[0] = moving;
+  controller.reference().feet.assign(2, moving);
   controller.Start(state_);
   EXPECT_TRUE(controller.reference().v_WG.isZero(0));
   EXPECT_TRUE(controller.reference().a_WG.isZero(0));
   EXPECT_EQ(controller.reference().posture, fresh.posture);
+  const auto expect_rest = [](const FrameReference& reference, const Pose& at) {
+    EXPECT_EQ(reference.X_WF.R, at.R);
+    EXPECT_EQ(reference.X_WF.p, at.p);
+    EXPECT_TRUE(reference.V_WF_W.isZero(0));
+    EXPECT_TRUE(reference.A_WF_W.isZero(0));
+  };
+  expect_rest(controller.reference().frames[0], fresh.frames[0].X_WF);
+  for (int i = 0; i < 2; ++i) {
+    expect_rest(controller.reference().feet[i], controller.contacts()[i].X_WC);
+  }
 }
 
 TEST_F(ControllerTest, AppliesItsOptions) {

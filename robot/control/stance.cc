@@ -87,6 +87,12 @@ bool Bears(ContactPhase phase) {
          phase == ContactPhase::kLoading;
 }
 
+// Whether Stance does not know the path of a foot in this phase. Only a return
+// from the measured pose brings the foot back.
+bool IsAway(ContactPhase phase) {
+  return phase == ContactPhase::kFree || phase == ContactPhase::kStepping;
+}
+
 // Returns the orientation with z up and the heading of R_WC.
 Eigen::Matrix3d Upright(const Eigen::Matrix3d& R_WC) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
@@ -215,17 +221,19 @@ bool Stance::Lands(const FootState& foot) noexcept { return foot.to < 0; }
 
 void Stance::Enter(FootState* foot, ContactPhase phase) noexcept {
   foot->phase = phase;
+  if (Bears(phase)) foot->has_taken_off = false;
   foot->since = 0;
   foot->left_for = 0;
   foot->has_flown = false;
   foot->has_risen = false;
 }
 
-// Ends the release of a foot. A foot that was released after the last Update()
-// has not moved yet: it is simply down again.
+// Ends the release or the step of a foot. A foot that was in contact at the
+// last Update() has not moved yet: it is simply down again.
 void Stance::CallBack(FootState* foot) noexcept {
-  if (foot->phase != ContactPhase::kFree) return;
-  Enter(foot, foot->since > 0 ? ContactPhase::kReturning : ContactPhase::kDown);
+  if (!IsAway(foot->phase)) return;
+  Enter(foot,
+        foot->has_taken_off ? ContactPhase::kReturning : ContactPhase::kDown);
 }
 
 bool Stance::Lift(int i, double height) noexcept {
@@ -268,7 +276,7 @@ void Stance::LetGo(int i) noexcept { Enter(&feet_[i], ContactPhase::kFree); }
 
 void Stance::PutDown(int i) noexcept {
   FootState& foot = feet_[i];
-  if (foot.phase == ContactPhase::kFree) {
+  if (IsAway(foot.phase)) {
     CallBack(&foot);
     foot.to = -length_ * kReach;
   } else if (foot.phase == ContactPhase::kReturning) {
@@ -294,6 +302,7 @@ void Stance::TakeOff(FootState* foot, const ContactTick& contact,
   foot->X_WC.p = contact.X_WC.p;
   foot->X_WC.p.z() = reference.ground_z;
   foot->from = contact.X_WC.p.z() - reference.ground_z;
+  foot->has_taken_off = true;
 }
 
 // Moves the target of a returning foot from the pose and twist V at the start
@@ -380,7 +389,7 @@ void Stance::ChangePhase(double dt, const ContactTick& contact,
                          FootState* of) noexcept {
   FootState& foot = *of;
   // Records the state at the start of a phase.
-  if (foot.phase == ContactPhase::kFree && foot.since == 0) {
+  if (!Bears(foot.phase) && !foot.has_taken_off) {
     TakeOff(&foot, contact, reference);
   }
   if (foot.phase == ContactPhase::kReturning && foot.since == 0) {

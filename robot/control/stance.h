@@ -77,22 +77,24 @@ class Stance {
   void Reset() noexcept;
 
   /// Fades the force of a foot out and then lifts the foot by height, m. A foot
-  /// already in the air moves to that height. A released foot moves from its
-  /// present pose to that height above the place where it took off. Returns
-  /// false, and does nothing, if the height is out of its range.
+  /// already in the air moves to that height. A released or stepping foot moves
+  /// from its present pose to that height above the place where it took off.
+  /// Returns false, and does nothing, if the height is out of its range.
   [[nodiscard]] bool Lift(int foot, double height) noexcept;
 
-  /// Puts a foot down at the place where it took off; a released foot returns
-  /// there first. A foot that is still unloading is loaded again.
+  /// Puts a foot down at the place where it took off; a released or stepping foot
+  /// returns there first. A foot that is still unloading is loaded again.
   void PutDown(int foot) noexcept;
 
   /// Releases a foot at once: its reference is switched off, and the foot moves
-  /// with the body until PutDown() or Lift() brings it back.
+  /// with the body until PutDown() or Lift() brings it back. A foot that was in
+  /// contact at the last Update() has not moved yet: for these calls it is in
+  /// contact.
   void LetGo(int foot) noexcept;
 
   /// Lifts a foot at once. The caller writes Reference::feet in each tick; the
   /// foot is in contact again, with full force, when its sole lies on the
-  /// ground.
+  /// ground. Lift() and PutDown() end the step, LetGo() releases the foot.
   void Step(int foot) noexcept;
 
   ContactPhase phase(int foot) const {
@@ -121,6 +123,7 @@ class Stance {
     double from = 0, to = 0;  // Start and end height of the swing, m.
     bool has_risen = false;   // Off the ground once in kStepping.
     bool has_flown = false;   // No foot was in contact at a time in this phase.
+    bool has_taken_off = false;  // In the air since an Update(); X_WC is set.
     std::vector<Eigen::Vector2d> polygon_C;
   };
 

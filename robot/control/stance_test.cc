@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "poise/math/so3.h"
 
@@ -474,6 +476,63 @@ TEST_F(StanceTest, PutDownRightAfterReleaseKeepsContact) {
   EXPECT_TRUE(contacts_[0].in_contact);
 }
 
+// A foot that is released in the air does not become a contact, whatever phase
+// it was in. It returns to the place where it took off.
+TEST_F(StanceTest, KeepsFootInAirThatIsReleasedAndCalledBackAtOnce) {
+  const auto lift = [this] {
+    ASSERT_TRUE(stance_.Lift(0, 0.1));
+    while (stance_.phase(0) != ContactPhase::kUp) Update();
+  };
+  const std::pair<ContactPhase, std::function<void()>> cases[] = {
+      {ContactPhase::kUp, lift},
+      {ContactPhase::kLanding,
+       [&] {
+         lift();
+         stance_.PutDown(0);
+       }},
+      {ContactPhase::kLost,
+       [this] {
+         contacts_[0].X_WC.p.z() = 0.1;
+         UpdateForLost();
+       }},
+      {ContactPhase::kFree,
+       [this] {
+         stance_.LetGo(0);
+         Update();
+       }},
+      {ContactPhase::kStepping, [this] {
+         stance_.Step(0);
+         Update();
+       }}};
+  for (const auto& [phase, bring] : cases) {
+    const Vector3d place(0.1 * static_cast<int>(phase), 2, 0);
+    for (const double height : {0.0, 0.05}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(phase) << height);
+      stance_.Reset();
+      contacts_[0].X_WC.p = place;
+      Update();
+      bring();
+      ASSERT_EQ(stance_.phase(0), phase);
+      contacts_[0].X_WC.p = place + Vector3d(0.05, 0.02, 0.1);
+      stance_.LetGo(0);
+      stance_.LetGo(0);
+      if (height > 0) {
+        ASSERT_TRUE(stance_.Lift(0, height));
+      } else {
+        stance_.PutDown(0);
+      }
+      EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
+      for (int i = 0; i < 500; ++i) {
+        Update();
+        ASSERT_FALSE(contacts_[0].in_contact);
+      }
+      // The reference of a foot that is put down ends 5 mm below the ground.
+      const Vector3d end(0, 0, height > 0 ? height : -0.005);
+      EXPECT_LT((reference_.feet[0].X_WF.p - place - end).norm(), 1e-9);
+    }
+  }
+}
+
 TEST_F(StanceTest, FadesForceOutBeforeLift) {
   ASSERT_TRUE(stance_.Lift(0, 0.05));
   Update();
@@ -732,5 +791,48 @@ TEST_F(StanceTest, StepLandsOnGroundThatIsHigherThanBelieved) {
     EXPECT_EQ(stance_.phase(0) == ContactPhase::kDown, sinking > 0);
   }
 }
+
+// Lift() and PutDown() end a step: the foot moves from its present pose to the
+// place where it took off, or above it.
+TEST_F(StanceTest, CallsSteppingFootBack) {
+  const Pose away{ExpSo3(Vector3d(0.4, -0.2, 0.1)), Vector3d(1.2, 2.1, 0.1)};
+  for (const double height : {0.0, 0.05}) {
+    SCOPED_TRACE(height);
+    stance_.Reset();
+    contacts_[0].X_WC = {Eigen::Matrix3d::Identity(), Vector3d(1, 2, 0)};
+    Update();
+    stance_.Step(0);
+    Update();
+    contacts_[0].X_WC = away;
+    Update();
+    if (height > 0) {
+      ASSERT_TRUE(stance_.Lift(0, height));
+    } else {
+      stance_.PutDown(0);
+    }
+    EXPECT_EQ(stance_.phase(0), ContactPhase::kReturning);
+    const Pose& target = reference_.feet[0].X_WF;
+    Update();
+    EXPECT_FALSE(contacts_[0].in_contact);
+    EXPECT_FALSE(contacts_[0].is_stepping);
+    // Tolerance: the minimum-jerk curve moves by 1e-7 of its length in 1 ms.
+    EXPECT_LT((target.p - away.p).norm(), 1e-6);
+    EXPECT_LT((target.R - away.R).norm(), 1e-6);
+    for (int i = 0; i < 500; ++i) Update();
+    const Vector3d end(1, 2, height > 0 ? height : -0.005);
+    EXPECT_LT((target.p - end).norm(), 1e-9);
+    EXPECT_LT((target.R - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+  }
+}
+
+TEST_F(StanceTest, PutDownRightAfterStepKeepsContact) {
+  stance_.Step(0);
+  stance_.PutDown(0);
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kDown);
+  stance_.Step(0);
+  ASSERT_TRUE(stance_.Lift(0, 0.05));
+  EXPECT_EQ(stance_.phase(0), ContactPhase::kUnloading);
+}
+
 }  // namespace
 }  // namespace poise

@@ -400,17 +400,15 @@ StepAnswer Gait::StepTo(int foot, const Eigen::Vector2d& p_WC,
 // Moves the center of mass over the sole of the stance foot, then lifts the
 // other foot.
 void Gait::Shift(Controller* controller) noexcept {
-  const Eigen::Vector2d sole =
-      controller->contacts()[1 - swing_].X_WC.p.head<2>();
-  com_.MoveTo(settings_.dt, sole + p_MidG_,
+  const Pose X_WS = StanceFrame(*controller, 1 - swing_);
+  com_.MoveTo(settings_.dt, InFrame(X_WS, p_MidG_),
               nominal_height_ - settings_.min_sink,
               settings_.shift_time - over_, &controller->reference());
   over_ += settings_.dt;
   if (over_ < kShiftTimes * settings_.shift_time) return;
   const Eigen::Vector2d half = robot_.feet[1 - swing_].half_size;
-  const Pose X_CW = StanceFrame(*controller, 1 - swing_).Inverse();
-  const Eigen::Array2d xi_C = InFrame(X_CW, xi_W_);
-  if (push_.acts() || (xi_C.abs() > kCentered * half.array()).any()) {
+  const Eigen::Array2d xi_S = InFrame(X_WS.Inverse(), xi_W_);
+  if (push_.acts() || (xi_S.abs() > kCentered * half.array()).any()) {
     if (over_ > kMostShiftTimes * settings_.shift_time) Rest(controller);
     return;
   }

@@ -16,7 +16,7 @@ struct GaitSettings {
   static constexpr double kTunedHeight = 0.79241773219939693;
 
   double dt = 1e-3;  ///< Control period, s.
-  /// Share of the angular momentum in the DCM, 0 to 1: see Dcm.
+  /// Share of the angular momentum in the DCM, 0 to 1: see ComputeDcm().
   double share_of_k = 0.985;
   StepTrigger trigger;  ///< For a robot that turns its trunk strongly.
   /// For a robot that cannot turn it, see FitToStrength().

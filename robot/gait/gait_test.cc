@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -30,9 +31,17 @@ const Robot& Humanoid() {
 // acceleration of the plant is that of the controller's solution.
 class Rig {
  public:
-  Rig() : controller_(Humanoid(), Options()), gait_(Humanoid(), Settings()) {
-    state_ = {0, Humanoid().q_nominal,
-              Eigen::VectorXd::Zero(Humanoid().model.tree.nv())};
+  Rig() : Rig(Humanoid()) {}
+
+  // Starts in the nominal posture, turned by yaw about the world's z axis.
+  explicit Rig(const Robot& robot, double yaw = 0)
+      : controller_(robot, Options()), gait_(robot, Settings()) {
+    state_ = {0, robot.q_nominal, Eigen::VectorXd::Zero(robot.model.tree.nv())};
+    const Eigen::Quaterniond turn(
+        Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+    const Eigen::Quaterniond upright(state_.q.segment<4>(3));
+    state_.q.head<3>() = turn * state_.q.head<3>();
+    state_.q.segment<4>(3) = (turn * upright).coeffs();
     command_.tau.setZero(Humanoid().model.tree.num_joints());
     controller_.Start(state_);
     controller_.Update(state_, &command_);
@@ -119,6 +128,27 @@ TEST(Gait, StepsOnCommandBeforeItsFirstTick) {
   Rig rig;
   EXPECT_EQ(rig.gait().StepTo(0, {0.1, 0.1}, rig.controller()),
             StepAnswer::kAccepted);
+}
+
+// With one arm raised, the nominal center of mass is 9 mm beside the middle of
+// the feet. It comes as far beside the sole, at any heading of the robot.
+TEST(Gait, ShiftsNominalCenterOfMassOverSoleAtAnyHeading) {
+  Robot robot = Humanoid();
+  const Tree& tree = robot.model.tree;
+  robot.q_nominal[tree.q_start() + *tree.FindJoint("r_shoulder_pitch")] = -1.5;
+  for (const double yaw : {0.0, 2.0}) {
+    SCOPED_TRACE(yaw);
+    Rig rig(robot, yaw);
+    const Eigen::Vector2d p_MidG_W = rig.controller().tick().p_WG.head<2>();
+    ASSERT_GT(p_MidG_W.norm(), 0.008);
+    ASSERT_EQ(rig.gait().StepTo(0, rig.FootPlace(0), rig.controller()),
+              StepAnswer::kAccepted);
+    rig.Run(1.2);  // The shift takes 1.0 s; the foot rises after 1.3 s.
+    ASSERT_EQ(rig.gait().phase(), GaitPhase::kShift);
+    const Eigen::Vector2d p_WG = rig.controller().reference().p_WG.head<2>();
+    // The reference keeps its goal, and the sole drifts by 5 um in the rig.
+    EXPECT_LT((p_WG - rig.FootPlace(1) - p_MidG_W).norm(), 1e-4);
+  }
 }
 
 // The foot does not rise while the capture point is beside the other sole. A

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/urdf/urdf_part_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
 
+#include "poise/math/inertia.h"
 #include "poise/robot/limits.h"
 
 namespace poise {
@@ -144,9 +144,7 @@ void CheckInertial(const XMLElement& link, const Critic& critic) {
                 PrintNumber(scale) + " kg m2 for " + PrintNumber(mass) + " kg",
                 "which means a body over 10 m wide: is it in millimeters?");
   }
-  const Eigen::Vector3d moments =
-      scale *
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(I / scale).eigenvalues();
+  const Eigen::Vector3d moments = PrincipalMoments(I);
   if (scale < mass * kThinnest * kThinnest) return;  // A point mass.
   if (moments[0] < -kTriangle * moments[2]) {
     critic.Warn(inertia,

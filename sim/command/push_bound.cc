@@ -21,8 +21,9 @@ bool ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
   push->force = direction;
   const double time = ProfileIntegral(*push);
   const auto bound = BoundOfPush(robot, q, *push, down);
-  if (!(time > 0) || !bound) return true;
-  const double impulse = *push->impulse_fraction * bound->lipm_height_Ns;
+  if (!(time > 0)) return true;
+  const double most = bound ? bound->lipm_height_Ns : 0;
+  const double impulse = *push->impulse_fraction * most;
   push->force *= impulse / time / push->force.norm();
   return impulse > 0 || *push->impulse_fraction == 0;
 }

@@ -13,7 +13,8 @@ namespace poise {
 
 /// Returns the pendulum's bound in the direction of a push, for a robot in the
 /// configuration q. `down` marks the feet on the ground; empty means all. Empty
-/// if the push has no horizontal direction in the world.
+/// if the push has no horizontal direction in the world, or as
+/// ComputeYardstick(): the push or the center of mass is below the soles.
 std::optional<Yardstick> BoundOfPush(const Robot& robot,
                                      const Eigen::VectorXd& q, const Push& push,
                                      const std::vector<bool>& down = {});
@@ -24,8 +25,9 @@ std::optional<Yardstick> BoundOfPush(const Robot& robot,
 ///
 /// @param direction  force as the scenario gives it, in the world, of any
 ///                   length but 0.
-/// @return false if the fraction is positive and the bound is 0, because the
-///         center of mass is not above the soles. The force is then 0.
+/// @return false if the fraction is positive and there is no bound above 0,
+///         because the center of mass is not above the soles, or the push is
+///         below the soles. The force is then 0.
 /// @pre The duration of a push with a fraction is positive.
 [[nodiscard]] bool ApplyFraction(const Robot& robot, const Eigen::VectorXd& q,
                                  const std::vector<bool>& down,

@@ -56,6 +56,18 @@ TEST(ApplyFraction, AcceptsAFractionOfZero) {
   EXPECT_EQ(push.force.norm(), 0);
 }
 
+TEST(ApplyFraction, GivesNoForceBelowTheSoles) {
+  const Robot robot = LoadHumanoid();
+  for (const double z : {-2.0, -10.0}) {
+    Push push = PushTo(0, 100);
+    push.point = Eigen::Vector3d(0, 0, z);
+    push.impulse_fraction = 0.5;
+    EXPECT_FALSE(ApplyFraction(robot, robot.q_nominal, {}, push.force, &push));
+    EXPECT_EQ(push.force.norm(), 0);
+    EXPECT_FALSE(BoundOfPush(robot, robot.q_nominal, push));
+  }
+}
+
 TEST(ApplyFraction, LeavesAPushInNewtons) {
   const Robot robot = LoadHumanoid();
   Push push = PushTo(0, 100);

@@ -73,8 +73,8 @@ std::string_view StatusName(TickStatus status);
 /// Returns "", "state", "clock" or "no_answer".
 std::string_view ReasonName(FailSafeReason reason);
 
-/// Returns "down", "unloading", "up", "landing", "loading", "lost", "free" or
-/// "returning".
+/// Returns "down", "unloading", "up", "landing", "loading", "lost", "free",
+/// "returning" or "stepping".
 std::string_view PhaseName(ContactPhase phase);
 
 }  // namespace poise

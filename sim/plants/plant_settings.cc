@@ -14,7 +14,7 @@ namespace {
 constexpr double kFar = 1e3;  // Largest coordinate and size of a board, m.
 constexpr std::size_t kMostBoards = 100;
 // Smallest torque_scale. It is positive because an effort limit of 0 means that
-// a joint has no limit.
+// a joint has no motor.
 constexpr double kWeakest = 1e-6;
 
 }  // namespace

@@ -187,6 +187,7 @@ double PendulumForce(const Experiment& experiment) {
   const Eigen::Vector2d u = push.force.head<2>();
   return ComputeYardstick(robot, robot.q_nominal, u, kPushTime, aimed.body(),
                           aimed.p_BoQ_B())
+             .value()
              .lipm_Ns /
          kPushTime;
 }

@@ -16,7 +16,7 @@ namespace poise {
 constexpr double kSlowestVelocity = 3;
 
 /// Keeps each joint inside its position limits, by bounds on its acceleration:
-///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇,
+///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇.
 /// On the bound the joint comes to rest at the limit, critically damped. The two
 /// joints next to a foot in contact may brake less: at the distance d from the
 /// limit and with a speed v > (2 - sqrt(2)) w d towards it by v² / (2 d), at
@@ -30,13 +30,13 @@ constexpr double kSlowestVelocity = 3;
 /// w q̇_max / 4. A rotating joint with q̇_max below q̇_5 = 5 rad/s, often a
 /// placeholder, approaches its limit faster, as exp(-w q̇_5 / q̇_max t), and
 /// brakes by at most w q̇_5 / 4. Limits below kSlowestVelocity count as that.
-/// If the two contradict each other, far beyond a position limit or fast
-/// towards it, the position limit wins. A range narrower than its margins
-/// shrinks to its middle. A joint without velocity limit, such as a finger that
-/// mimics another, gets kAssumedVelocity; otherwise a few milligrams would be
-/// accelerated by 1e6 rad/s² to supply the momentum that the feet cannot. A
-/// joint without a motor (effort 0) has no bound, because no torque can hold
-/// it. q̈ is v̇_j plus TaskInput::unmodelled_vdot. Without the latter, a push
+/// If a velocity limit contradicts a position limit, far beyond the position
+/// limit or fast towards it, the position limit wins. A range narrower than its
+/// margins shrinks to its middle. A joint without velocity limit, such as a
+/// finger that mimics another, gets kAssumedVelocity; otherwise a few milligrams
+/// would be accelerated by 1e6 rad/s² to supply the momentum that the feet
+/// cannot. A joint without a motor (effort 0) has no bound, because no torque
+/// can hold it. q̈ is v̇_j plus TaskInput::unmodelled_vdot. Without the latter, a push
 /// would move the joint by w⁻² times that acceleration beyond the limit. Rows
 /// are divided by w² rad.
 class JointLimitsTask final : public Task {

@@ -14,10 +14,12 @@ namespace poise {
 
 /// Controls the momentum of the robot about its center of mass G, (20), with
 /// feed-forward, over the mass m:
-///     (H_G v̇ + bias) / m = [ (-kd_angular k + K e) / m ;
-///                            kp (p_ref - p_G) + kd (v_ref - v_G) + a_ref ],
-/// where k is the angular momentum, and e the rotation from the orientation of
-/// the trunk T, see FindTrunk(), back to its reference: without it the trunk
+///     (H_G v̇ + bias) / m =
+///         [ (-kd_angular k + K e) / m ;
+///           kp (p_ref - p_G) + kd (f v_ref - v_G) + f a_ref + c ],
+/// where k is the angular momentum, f the parameter feedforward, and c the
+/// correction of Disturbance. e is the rotation from the orientation of the
+/// trunk T, see FindTrunk(), back to its reference: without it the trunk
 /// drifts, because angular momentum is not the derivative of an orientation.
 ///
 /// With TaskInput::capture, the capture blend of BalanceMonitor, the gains of
@@ -27,7 +29,8 @@ namespace poise {
 /// p_ref is the target of FindComTarget(): over the feet in contact. While
 /// Reference::pendulum is on, the rows of the plane are instead those of a
 /// linear inverted pendulum with the CoP p_Z, Khadiv et al. 2016:
-///     [l̇_x; l̇_y] / m = omega^2 (p_G - p_Z).
+///     [l̇_x; l̇_y] / m = omega^2 (p_G - p_Z),
+/// and f is 1 in the row of the height.
 class MomentumTask final : public Task {
  public:
   /// Parameters: kp (30 1/s2), kd (10 1/s), kd_angular (10 1/s), k_orientation

@@ -12,11 +12,14 @@ namespace poise {
 
 /// Keeps the bodies of the robot apart, by a lower bound on the acceleration of
 /// the distance d between two bodies:
-///     d̈ = c v̇ + b >= l = -2 w ḋ - w² (d - d_min),
+///     d̈ ≈ c v̇ + b >= l = -2 w ḋ - w² (d - d_min).
 /// On the bound the distance comes to rest at d_min, critically damped, as a
 /// joint does at its limit, see JointLimitsTask. c is the derivative of d by
 /// the joints between the two bodies; b has the accelerations of the closest
 /// points at v̇ = 0, relative to the last common body, and the unmodelled v̇.
+/// The rotation of the gradient of d is neglected. Between two points at the
+/// distance r, it would add |v_tan|² / r to d̈, where v_tan is the relative
+/// velocity across the line between them. This term pushes the points apart.
 ///
 /// Bodies that are too near are moved apart at 3 % of sqrt(g reach) at most,
 /// instead of w (d_min - d) / 2.

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/doctor/check_bodies.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <variant>
 
 #include "poise/dynamics/kinematics.h"
+#include "poise/math/inertia.h"
 #include "poise/robot/feet/legs.h"
 #include "poise/robot/feet/outline.h"
 #include "poise/robot/limits.h"
@@ -125,9 +125,7 @@ std::vector<Finding> FindWideInertias(const RobotModel& model) {
     for (const Outline::Corner& corner : outlines[b].corners) {
       reach = std::max(reach, (corner.p_B - M.p_BoG_B).norm() + corner.radius);
     }
-    const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                               M.I_G_B, Eigen::EigenvaluesOnly)
-                               .eigenvalues()[2];
+    const double largest = PrincipalMoments(M.I_G_B)[2];
     const double radius = std::sqrt(std::max(0., largest) / M.mass);
     if (!(reach > 0) || radius <= kTolerance * reach) continue;
     if (++count > kNamed) continue;
