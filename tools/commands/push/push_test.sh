@@ -45,7 +45,9 @@ grep -q '"recovered": null' "$interrupted/summary.json" ||
 killed=$TEST_TMPDIR/killed
 stop "$killed" KILL
 [ "$code" = 137 ] || fail "after SIGKILL: exit code is $code, must be 137"
-is_whole "$killed"
+# The signal can end the writing of several rows within one of them.
+[ "$(head -n -1 "$killed/log.csv" | awk -F, '{ print NF }' | sort -u | wc -l)" = 1 ] ||
+  fail "$killed: a row of log.csv before the last has not as many cells as the header"
 "$explain" "$killed" | grep -q 'The end of the run is not recorded.' ||
   fail "explain cannot read the files of a run that was killed"
 
