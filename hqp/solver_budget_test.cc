@@ -629,8 +629,9 @@ TEST(SolverBudget, TakesNoMoreIterationsIfThePathEndsInTime) {
   EXPECT_LT(with, 1.05 * without);
 }
 
-// A path that is cut off leaves time to meet the limits. Each path begins at an optimum and
-// would take longer than the limit of time.
+// A path that is cut off leaves time to meet the limits. Each path begins at an optimum. The
+// limit is 0.8 of the time without one, so that the path or what follows it is cut off in a
+// third of the ticks.
 TEST(SolverBudget, LeavesTimeForTheLimitsAfterThePath) {
   WanderingTicks ticks(0.3);
   Solver solver = ticks.MakeSolver(), timed = ticks.MakeSolver();

@@ -19,7 +19,7 @@ constexpr int kLongPath = 25;
 
 // The share of the time for a path whose start does not meet the levels before the last. Of
 // 0.7, 0.75, 0.8, 0.85, 0.9 and 0.95, this is the largest with which no recorded robot that
-// stays up loses limits or feet (docs/notebook/2026-12-01-path-first.md).
+// stays up loses limits or feet in 300 us (docs/notebook/2026-12-01-path-first.md).
 constexpr double kShareOfPath = 0.8;
 
 // How often a search removes many rows together, see RemoveConstraints(). With 4 and 10
@@ -91,6 +91,7 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
     y_ = path_.y();
   }
   const bool is_followed = meeting != Meeting::kCutOff;
+  const bool is_postponed = meeting == Meeting::kPostponed;
   if (is_followed) {
     problem->SolveDiagonal();
     set_optimum_ = problem->y();
@@ -98,21 +99,23 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
     const int longest = budget->has_time_limit()
                             ? limit
                             : std::min(limit, budget->iterations() + kLongPath);
-    if (meeting == Meeting::kPostponed) budget->set_share(kShareOfPath);
-    if (path_.Follow(hierarchy, longest, budget, problem, side)) {
+    if (is_postponed) budget->set_share(kShareOfPath);
+    const bool has_ended =
+        path_.Follow(hierarchy, longest, budget, problem, side);
+    budget->set_share(1);
+    if (has_ended) {
       y_ = path_.y();
       goes_on_ = false;
       path_.Remember(*problem, *side);
       return PathEnd::kOptimum;
     }
-    budget->set_share(1);
     if (budget->is_spent()) path_.Pause(*side);
   }
   // A path need not lower the cost at each step.
   if (IsBetter(hierarchy, path_.y(), y_)) y_ = path_.y();
   if (is_followed && IsBetter(hierarchy, set_optimum_, y_)) y_ = set_optimum_;
   if (budget->is_spent()) return PathEnd::kBudget;
-  if (budget->is_share_spent()) {
+  if (is_postponed && budget->is_share_spent()) {
     (void)path_.PauseAtLevelsBeforeLast(hierarchy, limit, budget, problem, side,
                                         &y_);
     budget->Spend();

@@ -77,9 +77,9 @@ class Budget {
   /// the time exceeds the share that was set.
   bool Take(int limit, const Work& work) {
     if (iterations_ >= limit) return false;
-    is_spent_ = is_spent_ || iterations_ >= limits_.iterations ||
-                (iterations_ >= kAlways && IsLate(work, 1));
-    is_share_spent_ = iterations_ >= kAlways && IsLate(work, share_);
+    const double used = iterations_ >= kAlways ? UsedTime(work) : 0;
+    is_spent_ = is_spent_ || iterations_ >= limits_.iterations || used > 1;
+    is_share_spent_ = !is_spent_ && used > share_;
     if (is_spent_ || is_share_spent_) return false;
     ++iterations_;
     return true;
@@ -91,7 +91,8 @@ class Budget {
   /// Sets the share of the limits of time, up to 1, after which Take() returns false without
   /// ending the budget.
   void set_share(double share) { share_ = share; }
-  /// Returns whether the last Take() has failed because of the share, or for lack of time.
+  /// Returns whether the share, but not the whole time, was spent at the last Take() that did
+  /// not fail because of `limit`.
   bool is_share_spent() const { return is_share_spent_; }
 
   /// Returns how many multiply-adds the iteration of the last Take() may use, after this
@@ -112,7 +113,7 @@ class Budget {
         std::clamp(left / kSecondsPerMultiplyAdd, -kLargest, kLargest));
   }
 
-  /// Ends the budget: an iteration has been interrupted.
+  /// Ends the budget, also before its time.
   void Spend() { is_spent_ = true; }
 
   /// Returns whether the budget has ended, by Spend() or because Take() has failed for
@@ -126,10 +127,14 @@ class Budget {
   int max_iterations() const { return limits_.iterations; }
 
  private:
-  bool IsLate(const Work& work, double share) const {
-    return (limits_.modelled_seconds > 0 &&
-            ModelledSeconds(work) > share * limits_.modelled_seconds) ||
-           (now_ != nullptr && Elapsed() > share * limits_.seconds);
+  // Returns the time that has passed, as a part of the limits: the larger one.
+  double UsedTime(const Work& work) const {
+    double used = 0;
+    if (limits_.modelled_seconds > 0) {
+      used = ModelledSeconds(work) / limits_.modelled_seconds;
+    }
+    if (now_ != nullptr) used = std::max(used, Elapsed() / limits_.seconds);
+    return used;
   }
   double Elapsed() const { return (*now_)() - start_; }
 

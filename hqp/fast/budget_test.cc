@@ -106,6 +106,21 @@ TEST(Budget, StopsAtItsShareOfTheTime) {
   }
 }
 
+// Each Take() reads the clock once, so that a clock that goes on cannot end the share, but not
+// the time, of a budget without a share.
+TEST(Budget, ReadsTheClockOncePerIteration) {
+  int reads = 0;
+  const std::function<double()> now = [&] { return ++reads; };
+  Budget budget({99, 0, 3.5}, &now);
+  TakeFree(&budget);
+  int taken = 0;
+  while (budget.Take({})) ++taken;
+  EXPECT_EQ(taken, 3);
+  EXPECT_EQ(reads, 1 + taken + 1);
+  EXPECT_TRUE(budget.is_spent());
+  EXPECT_FALSE(budget.is_share_spent());
+}
+
 // A limit of iterations does not limit the time. Neither do seconds without a
 // clock.
 TEST(Budget, KnowsWhetherItsTimeIsLimited) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // ParametricSearch: the move to a nearby point that meets all leading levels but the
-// last.
+// last, before the path or after it has been paused.
 #include <algorithm>
 
 #include "poise/hqp/fast/cost_order.h"
@@ -128,7 +128,7 @@ bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
       if (!MayRemove(problem, size, last, *side, a)) continue;
       const RowIndex row = {problem.row(a).level, problem.row(a).index};
       int level = 0;
-      while (end_[level] == 0) ++level;
+      while (level < size - 1 && end_[level] == 0) ++level;
       const double multiplier = end_[level];
       const bool is_of_level = level < size - 1;
       if (!removals_.HasAllRemovals(row)) {

@@ -4,17 +4,19 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "poise/hqp/fast/active_set_search.h"
+#include "poise/hqp/fast/budget.h"
 #include "poise/hqp/fast/cost_order.h"
 #include "poise/hqp/fast/parametric_search.h"
 #include "poise/hqp/hierarchy.h"
 #include "poise/hqp/reference/cascade.h"
 #include "poise/hqp/solution.h"
-#include "poise/hqp/solver.h"
 #include "poise/tests/util/path_between.h"
 
 namespace poise {
@@ -261,8 +263,8 @@ TEST(NearestOptimum, SeldomCyclesWhereLimitsCannotBeMet) {
     search.Begin(draw.Draw());
     endless += !search.MeetLevelsBeforeLast(draw.Draw(), 80);
   }
-  // 6 on the machine of this test; rounding decides about some of them.
-  EXPECT_LT(endless, 15);
+  // 6, or 13 if any row is removed alone; rounding decides about some of them.
+  EXPECT_LT(endless, 11);
 }
 
 // Bounds that become infinite while the budget ends do not stay in the working set.
@@ -350,7 +352,7 @@ TEST(NearestOptimum, BeginsWithTheLastPointIfThePathIsContinued) {
 }
 
 // Bounds that keep y_1 at 5 are forgotten by the time when y_0 must move: y_1 stays at its
-// optimum, whatever the working set of the last move. After Forget(), nothing is known.
+// optimum, whatever the working set of the last search.
 TEST(NearestOptimum, DoesNotReturnToAnOldWorkingSet) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {3, 0}};
   const auto at = [&](double most, double least) {
@@ -367,20 +369,42 @@ TEST(NearestOptimum, DoesNotReturnToAnOldWorkingSet) {
   };
   for (const bool forgets : {false, true}) {
     SCOPED_TRACE(forgets);
-    Solver solver(3, capacity);
-    Solution solution(3, capacity);
-    const auto solve = [&](double most, double least, double seconds) {
-      solver.max_modelled_seconds = seconds;
-      return solver.Solve(at(most, least), &solution);
-    };
-    ASSERT_EQ(solve(1000, -10, 1), Status::kOptimal);
-    ASSERT_EQ(solve(-1, 5, 1), Status::kOptimal);
-    ASSERT_NEAR(solution.y[1], 5, kSameY);
-    if (forgets) solver.Forget();
-    ASSERT_EQ(solve(1000, -10, 1), Status::kOptimal);
-    // No solve is modelled with 1e-9 s, so that this one is cut off.
-    (void)solve(-0.1, -10, 1e-9);
-    EXPECT_NEAR(solution.y[1], 0, kSameY);
+    PathBetween search(3, capacity);
+    search.Begin(at(1000, -10));
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(at(-1, 5)));
+    ASSERT_NEAR(search.y()[1], 5, kSameY);
+    if (forgets) search.path().Forget();
+    search.Begin(at(1000, -10));
+    ASSERT_NEAR(search.y()[1], 0, kSameY);
+    ASSERT_TRUE(search.MeetLevelsBeforeLast(at(-0.1, -10)));
+    EXPECT_NEAR(search.y()[0], -0.1, kSameY);
+    EXPECT_NEAR(search.y()[1], 0, kSameY);
+  }
+}
+
+// After a path that has ended within its share, the rest of the time is left, for instance for
+// refinement.
+TEST(NearestOptimum, LeavesTheRestOfTheTimeAfterAPath) {
+  double time = 0;
+  const std::function<double()> now = [&] { return time; };
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    FirstLevels draw(seed);
+    WorkingSetProblem problem(FirstLevels::kVariables, draw.capacity());
+    ActiveSetSearch search(FirstLevels::kVariables, draw.capacity());
+    Sides side = NoSides(draw.capacity());
+    for (int tick = 0; tick < 2; ++tick) {
+      const Hierarchy hierarchy = draw.Draw();
+      int failed_level;
+      ASSERT_EQ(problem.Read(hierarchy, &failed_level), Status::kOptimal);
+      FitToBounds(hierarchy, &side);
+      time = 0;
+      Budget budget({PathBetween::kEnough, 0, 1}, &now);
+      ASSERT_TRUE(search.AllAtOnce(hierarchy, PathBetween::kEnough, &budget,
+                                   &problem, &side));
+      time = 0.9;
+      EXPECT_TRUE(budget.Take({}));
+    }
   }
 }
 

@@ -90,16 +90,16 @@ class ParametricSearch {
   /// and stores it in `answer` if it is better.
   ///
   /// This point is the optimum of these levels and of `side` that is closest to y(). If it
-  /// violates a bound, this returns kPostponed without a move: most paths end soon. But a
-  /// path that is continued then moves to an optimum near y(), found from the working set of
-  /// the last such search, because its `side` is far from y(). The multipliers of `side` are
-  /// not checked.
+  /// violates a bound, this moves no further and returns kPostponed: most paths end soon. For
+  /// a path that is continued, the point is instead an optimum near y(), found from the
+  /// working set of the last search for one, because its `side` is far from y(). The
+  /// multipliers of `side` are not checked.
   ///
-  /// Returns kMet if the point has been reached, and, without a move, if there are fewer than
-  /// two leading levels, or if such a search took all of the last solve's budget. Returns
-  /// kCutOff if the budget, or `limit` iterations of it, did not suffice. Then the path is
-  /// paused, `side` is the working set of these levels, and `answer` meets the first levels
-  /// only.
+  /// Returns kMet if the point has been reached. Also returns kMet, and moves no further, if
+  /// there are fewer than two leading levels, or if such a search took all of the last solve's
+  /// budget. Returns kCutOff if the budget, or `limit` iterations of it, did not suffice. Then
+  /// the path is paused, `side` is the working set of these levels, and `answer` meets the
+  /// first levels only.
   [[nodiscard]] Meeting MeetLevelsBeforeLast(const Hierarchy& hierarchy,
                                              int limit, Budget* budget,
                                              WorkingSetProblem* problem,
@@ -215,7 +215,8 @@ class ParametricSearch {
   /// with the multiplier 0.
   RowNumbers start_;
   Sides side_;  ///< Working set of start_.
-  /// The working set of the last search for an optimum of the levels before the last.
+  /// The working set of the last search for an optimum of the levels before the last. It
+  /// stays known after an optimum of all levels.
   Sides near_side_;
   bool is_near_known_ = false;
   /// The next MeetLevelsBeforeLast() makes no move. Each search for the nearest point
