@@ -379,8 +379,8 @@ json Explain(const std::filesystem::path& run) {
   const std::string unknown =
       read.note.empty() ? ""
                         : read.note +
-                              " So the outcome of the run and the units of "
-                              "the rows are not known.";
+                              " So the outcome of the run is not known, and "
+                              "rows have their names in the log.";
 
   json out = {
       {"recovered",

@@ -187,15 +187,20 @@ TEST(Explanation, SaysThatTheRunEndsTooSoonAfterThePush) {
             "The robot did not fall, but did not return to its reference.");
 }
 
-// Without descriptions of rows, forces and moments cannot be told apart.
-TEST(Explanation, ComparesNoForcesWithoutASummary) {
+// Without descriptions of rows, their names tell forces and limits.
+TEST(Explanation, NamesLimitsWithoutASummary) {
   const auto run = MakeRun("no_summary", kPushed, "");
   std::filesystem::remove(run / "summary.json");
   const nlohmann::json said = Explain(run);
   EXPECT_EQ(said["story"],
-            nlohmann::json({"summary.json does not exist. So the outcome of "
-                            "the run and the units of the rows are not known.",
-                            "The end of the run is not recorded."}));
+            nlohmann::json(
+                {"summary.json does not exist. So the outcome of the run is "
+                 "not known, and rows have their names in the log.",
+                 "0.620 s: the most costly limit is reached: "
+                 "left_foot.cop.y_max, for 30 ms.",
+                 "0.620 s: the momentum task misses its target by up to 12 N "
+                 "at 0.630 s, because of left_foot.cop.y_max (100 %).",
+                 "The end of the run is not recorded."}));
   EXPECT_EQ(said["notes"][0], said["story"][0]);
 }
 
@@ -209,8 +214,8 @@ TEST(Explanation, IgnoresSummaryOfAnotherLog) {
   EXPECT_EQ(said["sentences"][0],
             "summary.json does not belong to this log.csv: its log_sha256 "
             "differs. The log is of another run, or was cut short or changed. "
-            "So the outcome of the run and the units of the rows are not "
-            "known.");
+            "So the outcome of the run is not known, and rows have their names "
+            "in the log.");
   EXPECT_EQ(said["story"][0], said["sentences"][0]);
   const size_t count = said["sentences"].size();
   EXPECT_EQ(said["sentences"][count - 2],
@@ -378,7 +383,7 @@ TEST(Explanation, NamesFiveCausesWithTheLargestMultipliers) {
     }
   }
   const std::string begin =
-      "0.100 s: momentum.ly missed its target by up to 12 (at 0.100 s), ";
+      "0.100 s: momentum.ly missed its target by up to 12 N (at 0.100 s), ";
   const std::string five =
       "torque.j41.max, torque.j40.max, torque.j39.max, torque.j38.max, "
       "torque.j37.max and ";

@@ -35,8 +35,7 @@ double LostForce(const RowPhrases& phrases,
   for (const auto& [name, amount] : lost) {
     const std::string task = phrases.task(name);
     if (task != "momentum" && task != "linear_momentum") continue;
-    // Rows of the angular momentum have another unit and do not count; nor do
-    // rows whose unit is not known.
+    // Rows of the angular momentum have another unit and do not count.
     if (phrases.unit(name) != "N") continue;
     square += amount * amount;
   }

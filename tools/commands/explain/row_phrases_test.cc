@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace poise {
 namespace {
 
@@ -19,12 +21,28 @@ TEST(RowPhrases, ReadsDescriptionsFromTheSummary) {
   EXPECT_TRUE(phrases.is_limit("warm.x.max"));
 }
 
-TEST(RowPhrases, UsesTheNameOfARowWithoutDescription) {
+TEST(RowPhrases, ReadsTheNameOfARowWithoutDescription) {
   const RowPhrases phrases;
   EXPECT_EQ(phrases.phrase("left_foot.cop.x_max"), "left_foot.cop.x_max");
-  EXPECT_EQ(phrases.unit("momentum.lx"), "");
+  EXPECT_EQ(phrases.unit("momentum.lx"), "N");
+  EXPECT_EQ(phrases.unit("angular_momentum.kz"), "N m");
+  EXPECT_EQ(phrases.unit("newton_euler.fx"), "");
   EXPECT_EQ(phrases.task("light_joints.thumb.2"), "light_joints.thumb");
-  EXPECT_FALSE(phrases.is_limit("left_foot.cop.x_max"));
+  EXPECT_EQ(phrases.kind("light_joints.thumb.2"), "");
+  EXPECT_FALSE(phrases.is_limit("light_joints.thumb.2"));
+  const std::pair<const char*, const char*> kinds[] = {
+      {"torque.chest_yaw.min", "torque_limit"},
+      {"joint.chest_yaw.max", "joint_limit"},
+      {"left_foot.cop.x_max", "cop_limit"},
+      {"zmp.y_min", "cop_limit"},
+      {"left_foot.yaw.max", "yaw_limit"},
+      {"right_foot.yaw_constant.min", "yaw_limit"},
+      {"left_foot.friction.y_min", "friction_limit"},
+      {"left_foot.unilateral.fz.min", "normal_force_limit"}};
+  for (const auto& [name, kind] : kinds) {
+    EXPECT_EQ(phrases.kind(name), kind);
+    EXPECT_TRUE(phrases.is_limit(name));
+  }
 }
 
 TEST(RowPhrases, IgnoresMalformedRows) {
