@@ -107,11 +107,14 @@ int FindTorso(const Robot& robot) {
   return torso;
 }
 
+bool IsZero(const Push& push) {
+  return push.duration == 0 || (push.force.isZero(0) && push.moment.isZero(0));
+}
+
 double TimeAfterPushes(const std::vector<Push>& pushes, double until) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Push& push : pushes) {
-    const bool is_zero = push.force.isZero(0) && push.moment.isZero(0);
-    if (is_zero || !(push.start < until)) continue;
+    if (IsZero(push) || !(push.start < until)) continue;
     const bool is_instant = push.profile == PushProfile::kImpulse;
     const double end = push.start + (is_instant ? 0 : push.duration);
     shortest = std::min(shortest, until - end);

@@ -65,9 +65,13 @@ double ImpulseOf(const Push& push,
 /// Null if no push has an impulse by then.
 const Push* LargestPush(const std::vector<Push>& pushes, double until);
 
+/// Returns whether a push does nothing: its duration is 0, or its force and
+/// moment are.
+bool IsZero(const Push& push);
+
 /// Returns the time from the end of the last push to a time, s. Pushes that have
-/// not begun by then, or have no force and no moment, do not count. Negative if a
-/// push is active at that time; infinite if no push counts.
+/// not begun by then, and those that are zero, do not count. Negative if a push is
+/// active at that time; infinite if no push counts.
 double TimeAfterPushes(const std::vector<Push>& pushes, double until);
 
 /// A push on a robot, with its link resolved to a body.

@@ -160,6 +160,9 @@ TEST(Push, KnowsTheTimeAfterTheLastPush) {
   Push push;                                         // From 1 s to 1.15 s.
   EXPECT_EQ(TimeAfterPushes({push}, 5), kInfinity);  // Without a force.
   push.moment.z() = 1;
+  Push never = push;
+  never.duration = 0;
+  EXPECT_EQ(TimeAfterPushes({never}, 5), kInfinity);
   EXPECT_NEAR(TimeAfterPushes({push}, 5), 3.85, 1e-12);
   EXPECT_NEAR(TimeAfterPushes({push}, 1.1), -0.05, 1e-12);
   EXPECT_EQ(TimeAfterPushes({push}, 1), kInfinity);

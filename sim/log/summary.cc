@@ -159,8 +159,7 @@ std::string PushLines(const Robot& robot, const Scenario& scenario) {
   bool is_zero = is_late;
   for (const Push& push : scenario.pushes) {
     is_late = is_late && push.start >= scenario.duration;
-    is_zero = is_zero && (push.duration == 0 ||
-                          (push.force.isZero(0) && push.moment.isZero(0)));
+    is_zero = is_zero && IsZero(push);
     if (ImpulseOf(push, scenario.duration) > 0) shown.push_back(&push);
   }
   if (is_late) return Line("push", "%s", "none before the end of the run");

@@ -12,6 +12,9 @@
 #include "poise/robot/finding.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/experiment.h"
+#include "poise/sim/judge.h"
+#include "poise/sim/push.h"
+#include "poise/sim/yardstick.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/push/overrides.h"
 #include "poise/tools/commands/push/push_options.h"
@@ -39,6 +42,32 @@ Shard ParseShard(const std::string& text) {
   }
   throw std::invalid_argument("--shard is '" + text +
                               "', must be I/N with 1 <= I <= N");
+}
+
+// Rejects a push without a bound, at which the search would start.
+void RequireBound(const Experiment& experiment) {
+  const Robot& robot = experiment.robot;
+  const PushOnRobot push(robot, experiment.scenario.pushes[0]);
+  if (ComputeYardstick(robot, robot.q_nominal, Eigen::Vector2d::UnitX(), 0,
+                       push.body(), push.p_BoQ_B())) {
+    return;
+  }
+  throw std::invalid_argument(
+      "--point: the push is below the soles, must be above them, because the "
+      "search starts at the pendulum's bound");
+}
+
+// Rejects runs that end too soon after the push to tell whether the robot recovers.
+void RequireTimeToRecover(const Scenario& scenario,
+                          const std::vector<double>& durations) {
+  const double longest = *std::max_element(durations.begin(), durations.end());
+  const double least = scenario.pushes[0].start + longest + Judge::kEnd;
+  if (scenario.duration >= least) return;
+  throw std::invalid_argument(
+      "--durations has " + PrintNumber(longest) + " s, and a run lasts " +
+      PrintNumber(scenario.duration) + " s, must last at least " +
+      PrintNumber(least) + " s: the outcome is known " +
+      PrintNumber(Judge::kEnd) + " s after the push; give --time");
 }
 
 // Returns a validator for a range. CLI::Range accepts NaN and prints numbers
@@ -162,6 +191,8 @@ PushMapOptions ReadPushMapOptions(int argc, char** argv) {
   control.without.insert(control.without.end(), without.begin(), without.end());
   // An invalid experiment is rejected before the map's folder is made.
   const ClosedLoop valid(experiment.robot, experiment.scenario);
+  RequireBound(experiment);
+  RequireTimeToRecover(experiment.scenario, durations);
   if (out.empty()) {
     out = "push-map-out";
     if (shard.count > 1) {

@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "poise/robot/input_error.h"
 #include "poise/sim/push.h"
 #include "poise/sim/run.h"
 #include "poise/sim/step_yardstick.h"
@@ -43,14 +42,9 @@ Eigen::Vector2d DirectionOf(const PushMapPoint& point) {
 Yardstick YardstickOf(const PushMapPlan& plan, const PushMapPoint& point) {
   const Robot& robot = plan.experiment.robot;
   const PushOnRobot push(robot, plan.experiment.scenario.pushes[0]);
-  const auto yardstick =
-      ComputeYardstick(robot, robot.q_nominal, DirectionOf(point),
-                       point.duration, push.body(), push.p_BoQ_B());
-  if (yardstick) return *yardstick;
-  throw InputError::OfValue(
-      "pushes[0].link",
-      ": the push is below the soles, must be above them, "
-      "because the search starts at the bound");
+  return ComputeYardstick(robot, robot.q_nominal, DirectionOf(point),
+                          point.duration, push.body(), push.p_BoQ_B())
+      .value();
 }
 
 // The state that the threads share.

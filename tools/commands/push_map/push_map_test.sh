@@ -10,7 +10,7 @@ fail() {
   exit 1
 }
 
-small=(--step 8 --at 0.02 --time 0.1 --jobs 1 --no-replays)
+small=(--step 8 --at 0.02 --time 0.63 --jobs 1 --no-replays)
 
 # Usage: map FOLDER OPTION...: computes a map in FOLDER.
 map() {
@@ -87,3 +87,7 @@ refuse "--shard is '3/2', must be I/N with 1 <= I <= N" --shard 3/2
 refuse "--force=50 cannot be used here: push_map sets scenario, direction, $(
   )duration and force itself" --force=50
 refuse "--durations is '0', must be 0.001 to 10 s" --durations 0
+refuse "--durations has 0.2 s, and a run lasts 0.63 s, must last at least 0.72 s: $(
+  )the outcome is known 0.5 s after the push; give --time" --durations 0.2
+refuse "--point: the push is below the soles, must be above them, because the $(
+  )search starts at the pendulum's bound" --point=0,0,-5
