@@ -55,7 +55,7 @@ int Main(int argc, char** argv) {
   if (!out.empty()) html = UserPath(out);
   for (const std::string& note :
        WriteReport(folders, html, PackageFolders(packages))) {
-    std::cerr << note << '\n';
+    std::cerr << "report: " << note << '\n';
   }
   std::cout << html.string() << '\n';
   return 0;

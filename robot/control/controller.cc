@@ -330,7 +330,8 @@ void Controller::LimitTorque(Command* command) noexcept {
     const double limit = scale * robot_.model.limits[j].effort;
     double& tau = command->tau[j];
     if (!std::isfinite(tau)) tau = 0;  // Never send NaN or infinity to a motor.
-    if (!std::isfinite(limit)) continue;  // The robot file gives no limit.
+    // Without a limit: infinite if the robot file gives none.
+    if (!(limit >= 0 && std::isfinite(limit))) continue;
     // For a joint without a motor (limit 0), the scale of the row is 1 N m.
     const double row_scale = limit > 0 ? limit : 1;
     const double slack = (std::abs(tau) - limit) / row_scale;

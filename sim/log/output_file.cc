@@ -14,8 +14,8 @@ namespace poise {
 void RequireWritable(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::exists(file, error)) {
-    // With std::ios::in, the file is not shortened.
-    if (!std::ofstream(file, std::ios::in | std::ios::app)) {
+    // This does not shorten the file.
+    if (!std::ofstream(file, std::ios::app)) {
       ThrowNotWritten(file);
     }
     return;

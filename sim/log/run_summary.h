@@ -9,7 +9,8 @@ namespace poise {
 
 /// Summary of a run, read from its folder.
 struct RunSummary {
-  /// Contents of summary.json. Null if the file is missing, or if its log_sha256 is not the hash of the log in the same folder.
+  /// Contents of summary.json. Null if the file is missing, or if its log_sha256
+  /// is not the hash of the log in the same folder.
   nlohmann::json values;
   std::string note;  ///< Why `values` is null, in a sentence; else empty.
   bool is_of_other_log = false;

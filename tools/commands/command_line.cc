@@ -179,7 +179,7 @@ std::string RefuseNoFlag(std::string& text) {
   }
 }
 
-// Rejects an empty entry of a list, as in a,,b. CLI11 would leave it out.
+// Rejects an empty entry of a list, as in a,,b or a,. CLI11 would leave it out.
 void RefuseEmptyEntries(const CLI::App& app, int argc, char** argv) {
   std::string name;
   for (int i = 1; i < argc; ++i) {
@@ -189,12 +189,16 @@ void RefuseEmptyEntries(const CLI::App& app, int argc, char** argv) {
     }
     const CLI::Option* const option = app.get_option_no_throw(name);
     if (option == nullptr || option->get_delimiter() == '\0') continue;
-    if (value.find(std::string(2, option->get_delimiter())) ==
-        std::string::npos) {
+    const char comma = option->get_delimiter();
+    // If the next word has the value, there is none here.
+    if (value.empty() ||
+        (value.front() != comma && value.back() != comma &&
+         value.find(std::string(2, comma)) == std::string::npos)) {
       continue;
     }
-    throw std::invalid_argument(name + " is " + Quoted(value) +
-                                ", must have text between commas");
+    throw std::invalid_argument(
+        name + " is " + Quoted(value) +
+        ", must have an entry before and after each comma");
   }
 }
 

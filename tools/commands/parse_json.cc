@@ -24,6 +24,17 @@ using nlohmann::json;
                 0, what);
 }
 
+// Returns the first place of a part outside quotation marks, or the end.
+size_t FindOutsideTexts(std::string_view text, std::string_view part) {
+  bool is_quoted = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') is_quoted = !is_quoted;
+    if (is_quoted && text[i] == '\\') ++i;  // The next character is escaped.
+    if (!is_quoted && text.substr(i, part.size()) == part) return i;
+  }
+  return text.size();
+}
+
 // Returns an error of the parser in words.
 std::string Explain(const json::parse_error& error) {
   const std::string said = error.what();
@@ -38,7 +49,8 @@ std::string Explain(const json::parse_error& error) {
   if (has("invalid number")) return "a number is malformed";
   const size_t token = said.find("unexpected ");
   if (token == std::string::npos) {
-    return "a word has no quotation marks and is not true, false or null";
+    return "there is text that is neither quoted, nor a number, true, false or "
+           "null";
   }
   std::string words = said.substr(token);
   const std::string expected = "; expected ";
@@ -84,7 +96,7 @@ json ParseJson(std::string_view text, const std::string& source) {
     const size_t quote = said.find('\'');
     const std::string number =
         said.substr(quote + 1, said.rfind('\'') - quote - 1);
-    RefuseAt(text, std::min(text.find(number), text.size()), source,
+    RefuseAt(text, FindOutsideTexts(text, number), source,
              "number is " + Quoted(number) + ", which is too large");
   }
 }

@@ -60,7 +60,8 @@ TEST(ParseJson, NamesLineAndColumnInPlainWords) {
             "a.json:2:1: " + start + "unexpected ']', must be end of input");
   EXPECT_EQ(Refusal("[1,\n  nan]"),
             "a.json:2:4: " + start +
-                "a word has no quotation marks and is not true, false or null");
+                "there is text that is neither quoted, nor a number, true, "
+                "false or null");
   EXPECT_EQ(Refusal("{\n\"a\": 1"),
             "a.json:2:6: " + start + "the file ends too early");
   EXPECT_EQ(Refusal("[\"a]"), "a.json:1:4: " + start +

@@ -302,6 +302,7 @@ std::vector<RobotTrial> RunRobots(
     const RobotFolder& robots,
     const std::function<void(const RobotTrial&)>& show) {
   const auto expected = ReadExpected(robots.folder);
+  const bool expects_nothing = !fs::exists(robots.folder / "EXPECTED.json");
   const std::vector<fs::path> files = UrdfFiles(robots.folder);
   CheckNames(expected, files);
   std::deque<Candidate> candidates;
@@ -321,7 +322,7 @@ std::vector<RobotTrial> RunRobots(
   RunInOrder(
       candidates.size(),
       [&](std::size_t i) {
-        return candidates[i].Run(wanted[i], expected.empty());
+        return candidates[i].Run(wanted[i], expects_nothing);
       },
       [&](std::size_t i, RobotTrial trial) {
         trials.push_back(std::move(trial));

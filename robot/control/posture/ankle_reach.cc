@@ -9,7 +9,9 @@ namespace poise {
 double AnkleReach(const Robot& robot, int ankle) {
   constexpr double kShare = 0.5;
   const double effort = robot.model.limits[ankle].effort;
-  if (!std::isfinite(effort)) return std::numeric_limits<double>::infinity();
+  if (!(effort >= 0 && std::isfinite(effort))) {
+    return std::numeric_limits<double>::infinity();
+  }
   const Tree& tree = robot.model.tree;
   return kShare * effort / (tree.total_mass() * tree.gravity_W().norm());
 }

@@ -102,13 +102,6 @@ const json& Column(const json& level, const char* key, const char* matrix,
   return column;
 }
 
-// Rejects a list of names that does not have one name a row.
-void CheckNames(const json& level, const char* key, size_t rows,
-                const std::string& where) {
-  if (!level.contains(key)) return;
-  RefuseLength(Array(level, key, where), rows, where + "." + key);
-}
-
 template <typename Matrix>
 void ReadRow(const json& row, int i, const std::string& where, Matrix* to) {
   const std::string name = where + "[" + std::to_string(i) + "]";
@@ -124,7 +117,6 @@ void ReadEqualities(const json& level, int index, const std::string& where,
                     Hierarchy* hierarchy) {
   const json& B = Array(level, "B", where);
   const json& b = Column(level, "b", "B", where);
-  CheckNames(level, "equality_names", B.size(), where);
   const int rows = static_cast<int>(B.size());
   EqualityBlock block = hierarchy->AddEqualities(index, rows);
   for (int i = 0; i < rows; ++i) {
@@ -154,7 +146,6 @@ void ReadInequalities(const json& level, int index, const std::string& where,
     block.upper[i] = -Number(a[i], where + ".a[" + std::to_string(i) + "]");
   }
   const json& C = Array(level, "C", where);
-  CheckNames(level, "inequality_names", A.size() + C.size(), where);
   const int sided_rows = static_cast<int>(C.size());
   InequalityBlock sided = hierarchy->AddInequalities(index, sided_rows);
   for (int i = 0; i < sided_rows; ++i) ReadRow(C[i], i, where + ".C", &sided.C);

@@ -212,12 +212,6 @@ TEST(ReadHqp, RejectsInOneLine) {
             "levels[0].C: is missing, but upper has 1 entry");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2]], "b": []}]})"),
             "levels[0].b: has 0 entries, must have 1");
-  EXPECT_EQ(Refusal(head + R"([{"B": [[1, 2], [3, 4]], "b": [1, 2],
-                                "equality_names": ["x"]}]})"),
-            "levels[0].equality_names: has 1 entry, must have 2");
-  EXPECT_EQ(Refusal(head + R"([{"A": [[1, 2]], "a": [1], "C": [[3, 4]],
-                                "inequality_names": ["x"]}]})"),
-            "levels[0].inequality_names: has 1 entry, must have 2");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1]], "b": [1]}]})"),
             "levels[0].B[0]: has 1 entry, must have 2");
   EXPECT_EQ(Refusal(head + R"([{"B": [[1, "x"]], "b": [1]}]})"),

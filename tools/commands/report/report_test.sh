@@ -41,7 +41,7 @@ expect 0 '' run --out page.html
 
 # A missing file is noted; a broken one is refused.
 rm kept/robot.json
-expect 0 "$PWD/kept: robot.json is missing." "$PWD/kept"
+expect 0 "report: $PWD/kept: robot.json is missing." "$PWD/kept"
 echo '{"recovered": tr' > kept/summary.json
 expect 2 'report: kept/summary.json: is not JSON, may be empty or cut short; run push again, or remove this file to read the log alone' kept
 
