@@ -169,10 +169,10 @@ AbaStatus EliminateJoints(const Tree& tree,
     const double D = Dot(S, U) + joints.armature[b];
     const double locked =
         Dot(S, Momentum(r.M_W[b], S.angular, S.linear)) + joints.armature[b];
-    if (!std::isfinite(D) || !std::isfinite(locked)) {
-      return AbaStatus::kNotFinite;
+    if (!(D > kRounding * locked)) {
+      const bool is_finite = std::isfinite(D) && std::isfinite(locked);
+      return is_finite ? AbaStatus::kSingular : AbaStatus::kNotFinite;
     }
-    if (!(D > kRounding * locked)) return AbaStatus::kSingular;
     const double u = tau[v0 + b - 1] - Dot(S, body.bias);
     scratch->U[b] = U;
     scratch->D[b] = D;

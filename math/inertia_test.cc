@@ -200,7 +200,7 @@ RC_GTEST_PROP(PrincipalMoments, AreTheRootsOfTheCharacteristicPolynomial, ()) {
             Rounding(scale * scale * scale, 24));
 }
 
-// Also moments of no body, negative and equal ones.
+// The moments may be those of no body: negative, or equal.
 RC_GTEST_PROP(PrincipalMoments, DoNotDependOnTheAxes, ()) {
   Vector3d moments = *Vectors();
   const Matrix3d R = *Rotations();

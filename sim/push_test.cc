@@ -163,6 +163,7 @@ TEST(Push, KnowsTheTimeAfterTheLastPush) {
   Push never = push;
   never.duration = 0;
   EXPECT_EQ(TimeAfterPushes({never}, 5), kInfinity);
+  // Tolerance: differences of times up to 5 s are rounded by 1e-15 s.
   EXPECT_NEAR(TimeAfterPushes({push}, 5), 3.85, 1e-12);
   EXPECT_NEAR(TimeAfterPushes({push}, 1.1), -0.05, 1e-12);
   EXPECT_EQ(TimeAfterPushes({push}, 1), kInfinity);

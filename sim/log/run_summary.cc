@@ -78,8 +78,7 @@ RunSummary ReadRunSummary(const std::filesystem::path& run) {
     return {nullptr,
             "summary.json does not belong to this " + log.filename().string() +
                 ": its log_sha256 differs. The log is of another run, or was "
-                "cut short or changed.",
-            true};
+                "cut short or changed."};
   }
   return {std::move(values), ""};
 }

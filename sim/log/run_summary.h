@@ -13,7 +13,6 @@ struct RunSummary {
   /// is not the hash of the log in the same folder.
   nlohmann::json values;
   std::string note;  ///< Why `values` is null, in a sentence; else empty.
-  bool is_of_other_log = false;
 };
 
 /// Reads summary.json, and the whole log once. A summary without log_sha256 is

@@ -39,7 +39,6 @@ TEST_F(RunSummaryTest, ReadsTheSummaryThatBelongsToTheLog) {
     const RunSummary summary = ReadRunSummary(run_);
     EXPECT_EQ(summary.values["recovered"], true);
     EXPECT_EQ(summary.note, "");
-    EXPECT_FALSE(summary.is_of_other_log);
   }
   Write("summary.json", R"({"recovered": true})");
   EXPECT_EQ(ReadRunSummary(run_).values["recovered"], true);
@@ -52,7 +51,6 @@ TEST_F(RunSummaryTest, RejectsTheSummaryOfALogThatWasCutOrChanged) {
     Write("log.csv", log);
     const RunSummary summary = ReadRunSummary(run_);
     EXPECT_TRUE(summary.values.is_null());
-    EXPECT_TRUE(summary.is_of_other_log);
     EXPECT_EQ(summary.note,
               "summary.json does not belong to this log.csv: its log_sha256 "
               "differs. The log is of another run, or was cut short or "
@@ -64,7 +62,6 @@ TEST_F(RunSummaryTest, ReportsAMissingSummary) {
   Write("log.csv", "abc");
   const RunSummary summary = ReadRunSummary(run_);
   EXPECT_TRUE(summary.values.is_null());
-  EXPECT_FALSE(summary.is_of_other_log);
   EXPECT_EQ(summary.note, "summary.json does not exist.");
 }
 

@@ -101,6 +101,10 @@ json ParseJson(std::string_view text, const std::string& source) {
   }
 }
 
+std::string Entries(size_t n) {
+  return std::to_string(n) + (n == 1 ? " entry" : " entries");
+}
+
 std::string ShowJson(const json& value) {
   constexpr size_t kMost = 40;
   const std::string text =

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ namespace poise {
 ///
 /// @param source  the name of the text in messages.
 nlohmann::json ParseJson(std::string_view text, const std::string& source);
+
+/// Returns "1 entry" or "2 entries", for a message.
+std::string Entries(std::size_t n);
 
 /// Returns a value for a message of one line. A long one is cut.
 std::string ShowJson(const nlohmann::json& value);

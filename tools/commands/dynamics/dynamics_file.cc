@@ -37,11 +37,9 @@ VectorXd ReadVector(const json& object, const char* key, int size,
                     const std::string& where) {
   const json& entry = Array(object, key, where);
   const std::string has = where + ": '" + key + "' has ";
-  const int n = static_cast<int>(entry.size());
-  if (n != size) {
-    throw std::invalid_argument(has + std::to_string(n) +
-                                (n == 1 ? " entry" : " entries") +
-                                ", must have " + std::to_string(size));
+  if (static_cast<int>(entry.size()) != size) {
+    throw std::invalid_argument(has + Entries(entry.size()) + ", must have " +
+                                std::to_string(size));
   }
   VectorXd vector(size);
   for (int i = 0; i < size; ++i) {

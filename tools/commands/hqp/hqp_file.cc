@@ -75,10 +75,6 @@ void RefuseCrossed(const InequalityBlock& block, const std::string& lower,
   }
 }
 
-std::string Entries(size_t n) {
-  return std::to_string(n) + (n == 1 ? " entry" : " entries");
-}
-
 void RefuseLength(const json& array, size_t wanted, const std::string& where) {
   if (array.size() == wanted) return;
   Refuse(where, "has " + Entries(array.size()) + ", must have " +
@@ -237,8 +233,7 @@ HqpProblem ReadHqp(const std::string& text, const std::string& source) {
                          std::to_string(kMostLevels) + " entries");
   }
   if (levels.empty() || levels.size() > kMostLevels) {
-    Refuse("levels", "has " + std::to_string(levels.size()) +
-                         " entries, must have 1 to " +
+    Refuse("levels", "has " + Entries(levels.size()) + ", must have 1 to " +
                          std::to_string(kMostLevels));
   }
   const bool has_bounds = file.contains("y_lower") || file.contains("y_upper");

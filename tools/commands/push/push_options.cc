@@ -64,7 +64,7 @@ std::string OptionOf(const std::string& field, const Overrides& o,
       {o.time.has_value(), "duration", "--time"},
       {o.control_rate.has_value(), "control.rate", "--control-rate"},
       {o.plant_rate.has_value(), "plant.rate", "--plant-rate"},
-      // --budget-clock alone lacks --budget-us.
+      // A budget by the clock needs --budget-us as well.
       {o.budget_us.has_value() || o.budget_clock.has_value(),
        "control.budget_us", "--budget-us"},
       {o.budget_clock.has_value(), "control.budget_clock", "--budget-clock"},
