@@ -8,17 +8,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "poise/hqp/solver.h"
+#include "poise/robot/output_file.h"
 #include "poise/tests/util/compare_solvers.h"
 #include "poise/tests/util/shrink_hierarchy.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
-#include "poise/tools/commands/user_path.h"
+#include "poise/tools/commands/output_folder.h"
 
 namespace poise {
 namespace {
@@ -40,10 +40,7 @@ std::string Kind(const std::string& disagreement) {
 
 std::string Write(const std::filesystem::path& path,
                   const HierarchyCase& drawn) {
-  std::ofstream file(path);
-  if (!(file << WriteHqp(drawn.hierarchy) << "\n")) {
-    throw std::runtime_error(path.string() + ": cannot be written");
-  }
+  WriteFile(path, WriteHqp(drawn.hierarchy) + "\n");
   return " " + path.string();
 }
 
@@ -61,8 +58,7 @@ void Report(const Night& night, std::uint64_t seed,
   ticks = ShrinkTicks(ticks, [&](const std::vector<HierarchyCase>& each) {
     return Kind(DisagreementAfter(each, night.tolerance)) == kind;
   });
-  const std::filesystem::path folder = UserPath(night.out);
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = MakeOutputFolder(night.out);
   const std::string name = "hqp_" + std::to_string(seed);
   std::string files;
   if (ticks.size() == 1) {

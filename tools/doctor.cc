@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "poise/robot/finding.h"
+#include "poise/robot/output_file.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/doctor/diagnose.h"
 #include "poise/tools/commands/doctor/diagnosis.h"
@@ -31,11 +31,7 @@ void Save(const Diagnosis& diagnosis, const std::string& name) {
     throw std::invalid_argument(name +
                                 ": is not written, because no feet were found");
   }
-  std::ofstream stream(file);
-  stream << diagnosis.profile;
-  if (!stream.flush()) {
-    throw std::invalid_argument(name + ": cannot be written");
-  }
+  WriteFile(file, diagnosis.profile);
 }
 
 int Main(int argc, char** argv) {

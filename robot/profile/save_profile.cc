@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <fstream>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 
 #include "poise/math/rpy.h"
 #include "poise/robot/feet/sole_source.h"
+#include "poise/robot/output_file.h"
 #include "poise/robot/profile/sides.h"
 
 namespace poise {
@@ -147,11 +147,9 @@ void SaveProfile(const Robot& robot, const Profile& profile,
     throw std::invalid_argument(
         file.string() + ": is the profile that was read, must be a new file");
   }
-  std::ofstream stream(file);
-  WriteProfile(robot, profile, &stream);
-  if (!stream.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
+  std::ostringstream text;
+  WriteProfile(robot, profile, &text);
+  WriteFile(file, text.str());
 }
 
 }  // namespace poise

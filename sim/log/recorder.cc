@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <limits>
-#include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include "poise/robot/control/conflict.h"
+#include "poise/robot/output_file.h"
 #include "poise/sim/log/columns.h"
-#include "poise/sim/log/output_file.h"
 
 namespace poise {
 
@@ -155,16 +155,12 @@ Recorder::Recorder(const std::filesystem::path& folder, const Robot& robot,
       num_levels_(LastLevel(stack)),
       rows_(MakeLogRows(format, Columns(robot, stack))),
       log_file_(folder / LogFileName(format)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw std::invalid_argument(folder.string() +
-                                ": cannot be created: " + error.message());
-  }
+  MakeFolder(folder);
   // Nothing of an earlier run is removed before both files can be written.
   RequireWritable(log_file_);
   RequireWritable(TimingFile());
   // Readers would mistake the log of an earlier run for the log of this run.
+  std::error_code error;
   for (const LogFormat other : {LogFormat::kCsv, LogFormat::kBinary}) {
     std::filesystem::remove(folder / LogFileName(other), error);
   }

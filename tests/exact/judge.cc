@@ -5,17 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 
+#include "poise/robot/output_file.h"
 #include "poise/tests/exact/exact_difference.h"
 #include "poise/tests/exact/small_hierarchy.h"
 #include "poise/tests/util/shrink_hierarchy.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
-#include "poise/tools/commands/user_path.h"
+#include "poise/tools/commands/output_folder.h"
 
 namespace poise {
 namespace {
@@ -26,14 +25,9 @@ void Report(const HierarchyCase& drawn, std::uint64_t seed,
   const HierarchyCase small = ShrinkHierarchy(drawn, [](const auto& each) {
     return !DifferenceFromExact(each).empty();
   });
-  const std::filesystem::path folder = UserPath(out);
-  std::filesystem::create_directories(folder);
   const std::filesystem::path path =
-      folder / ("exact_" + std::to_string(seed) + ".json");
-  std::ofstream file(path);
-  if (!(file << WriteHqp(small.hierarchy) << "\n")) {
-    throw std::runtime_error(path.string() + ": cannot be written");
-  }
+      MakeOutputFolder(out) / ("exact_" + std::to_string(seed) + ".json");
+  WriteFile(path, WriteHqp(small.hierarchy) + "\n");
   std::cout << "  shrunk: " << DifferenceFromExact(small)
             << "\n  bazel run //tools:hqp -- " << path.string() << std::endl;
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
+#include "poise/robot/output_file.h"
 #include "poise/sim/log/columns.h"
 #include "poise/sim/outcome.h"
 #include "poise/tools/drawing/plot.h"
@@ -288,7 +288,7 @@ std::vector<FigureRun> MakeFigureRuns(const Robot& robot,
 
 std::vector<Figure> DrawFigures(const Robot& robot, const fs::path& runs,
                                 const fs::path& pictures) {
-  fs::create_directories(pictures);
+  MakeFolder(pictures);
   const auto stem = [&](int number) {
     return pictures / Format("figure-%02d", number);
   };
@@ -340,7 +340,7 @@ std::vector<Figure> DrawFigures(const Robot& robot, const fs::path& runs,
 
 void WriteResults(const std::vector<Figure>& figures, const fs::path& markdown,
                   const std::string& pictures) {
-  std::ofstream stream(markdown);
+  std::ostringstream stream;
   stream << "# The paper's results, and ours\n\n"
             "`bazel run //tools:figures` writes this page from new runs in "
             "Bullet. Numbers are the\nsimulator's true values, not the "
@@ -357,9 +357,7 @@ void WriteResults(const std::vector<Figure>& figures, const fs::path& markdown,
            << pictures << '/' << Format("figure-%02d.svg", figure.number)
            << "))\n";
   }
-  if (!stream.flush()) {
-    throw std::invalid_argument(markdown.string() + ": cannot be written");
-  }
+  WriteFile(markdown, stream.str());
 }
 
 }  // namespace poise

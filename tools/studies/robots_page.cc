@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
 #include "poise/robot/finding.h"
+#include "poise/robot/output_file.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/outcome.h"
 #include "poise/tools/drawing/robot_picture.h"
@@ -159,13 +159,12 @@ Json RobotsToJson(const std::vector<RobotTrial>& trials) {
 
 void WriteRobotsPage(const std::vector<RobotTrial>& trials,
                      const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder / kPictures);
+  MakeFolder(folder / kPictures);
   for (const RobotTrial& trial : trials) {
     if (!trial.robot) continue;
     DrawPicture(*trial.robot, folder / kPictures / trial.name);
   }
-  const std::filesystem::path file = folder / "robots.md";
-  std::ofstream page(file);
+  std::ostringstream page;
   page << "# Robots of others\n\nWritten by\n\n"
           "    bazel run //tools:robustness -- --robots DIR "
           "--package-path DIR/packages --out docs/generated\n\n"
@@ -194,9 +193,7 @@ void WriteRobotsPage(const std::vector<RobotTrial>& trials,
     kept += trial.faults.empty() ? 1 : 0;
   }
   page << '\n' << kept << " of " << trials.size() << " robots as expected.\n";
-  if (!page.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
+  WriteFile(folder / "robots.md", page.str());
 }
 
 }  // namespace poise

@@ -101,9 +101,9 @@ grep -q "mine.yaml:1: .* unknown key 'feeet', .* \*\*no\*\*: its profile is refu
   fail "the broken profile is expected: $out"
 
 # The folder of the page is made before the runs.
-refuse "--out is '/dev/null/x', which cannot be made a folder: Not a directory" \
+refuse "/dev/null/x: cannot be made a folder: Not a directory" \
   --robots "$robots" --out /dev/null/x
-refuse "--out is '/dev/null', which cannot be made a folder: Not a directory" \
+refuse "/dev/null: cannot be made a folder: Not a directory" \
   --robots "$robots" --out /dev/null
 rm "$robots/cut.urdf"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "poise/dynamics/tick.h"
+#include "poise/robot/output_file.h"
 #include "poise/sim/log/columns.h"
 #include "poise/tools/drawing/robot_picture.h"
 #include "poise/tools/studies/recorded_run.h"
@@ -206,7 +207,7 @@ void DrawPoses(const Robot& robot, const RecordedRun& run,
 
 void DrawShove(const Robot& robot, const std::filesystem::path& runs,
                const std::filesystem::path& pictures) {
-  std::filesystem::create_directories(pictures);
+  MakeFolder(pictures);
   const RecordedRun run(robot, runs / "shove");
   const nlohmann::json& steps = run.summary()["steps"];
   if (!steps.is_array() || steps.empty() || !steps[0]["swing_s"].is_number()) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "poise/robot/output_file.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
 
@@ -39,16 +39,12 @@ void Check(const DumpedTicks& ticks, double dt, double duration) {
 }
 
 void Write(const Hierarchy& hierarchy, const std::filesystem::path& file) {
-  std::ofstream stream(file);
-  stream << WriteHqp(hierarchy) << '\n';
-  if (!stream.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
+  WriteFile(file, WriteHqp(hierarchy) + '\n');
 }
 
 // Makes a folder without files of another dump.
 void MakeEmpty(const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  MakeFolder(folder);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name.rfind("solve_", 0) == 0) std::filesystem::remove(entry.path());
@@ -71,7 +67,7 @@ std::filesystem::path DumpSolve(const Experiment& experiment,
       is_one ? folder
              : folder / ("solves_" + Text(ticks.first, dt) + "_" + last_text);
   if (is_one) {
-    std::filesystem::create_directories(to);
+    MakeFolder(to);
   } else {
     MakeEmpty(to);
   }

@@ -1,11 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/push/record_run.h"
 
-#include <fstream>
 #include <string>
 #include <system_error>
 
-#include "poise/sim/log/output_file.h"
+#include "poise/robot/output_file.h"
 #include "poise/sim/log/summary.h"
 #include "poise/sim/push.h"
 #include "poise/sim/step_yardstick.h"
@@ -40,9 +39,7 @@ std::optional<double> StepYardstick(const Robot& robot,
 }
 
 void Write(const std::string& text, const std::filesystem::path& file) {
-  std::ofstream stream(file);
-  stream << text << '\n';
-  if (!stream.flush()) ThrowNotWritten(file);
+  WriteFile(file, text + '\n');
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "poise/robot/output_file.h"
+
 namespace poise {
 namespace {
 
@@ -33,19 +35,6 @@ std::string ReadAll(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
-}
-
-// Replaces a file in one step. So a reader, or an interrupted program, sees
-// either the old file or the new one.
-void Replace(const fs::path& file, const std::string& text) {
-  const fs::path draft = file.string() + ".new";
-  std::ofstream stream(draft, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) {
-    throw std::invalid_argument(draft.string() + ": cannot be written");
-  }
-  stream.close();
-  fs::rename(draft, file);
 }
 
 std::string Text(const PushMapTrial& trial) {
@@ -126,12 +115,7 @@ PushMapValue::Steps StepsOf(const std::vector<std::string>& cells,
 PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
                            bool header, bool with_steps)
     : folder_(folder), header_(header), with_steps_(with_steps) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw std::invalid_argument(
-        folder.string() + ": the folder cannot be created: " + error.message());
-  }
+  MakeFolder(folder);
   const fs::path settings_file = folder / "settings.txt";
   const std::string text = settings + '\n';
   if (fs::exists(settings_file) && ReadAll(settings_file) != text) {
@@ -139,7 +123,7 @@ PushMapFiles::PushMapFiles(const fs::path& folder, const std::string& settings,
                                 ": has a map with other settings, see "
                                 "settings.txt; choose another --out");
   }
-  Replace(settings_file, text);
+  WriteFile(settings_file, text);
   const fs::path map = folder / "map.csv", trials = folder / "trials.csv";
   for (const auto& cells : Rows(map, MapHeader(with_steps))) {
     // PointOf() checks the number of cells.
@@ -186,8 +170,11 @@ void PushMapFiles::AddTried(const PushMapPoint& point, double impulse,
                             const PushMapTrial& trial) {
   const std::lock_guard lock(mutex_);
   tried_[point][impulse] = trial;
-  std::ofstream(folder_ / "trials.csv", std::ios::app)
-      << Text(point) + Text(impulse) + Text(trial);
+  const fs::path file = folder_ / "trials.csv";
+  std::ofstream stream(file, std::ios::app);
+  if (!(stream << Text(point) + Text(impulse) + Text(trial) << std::flush)) {
+    ThrowNotWritten(file);
+  }
 }
 
 std::map<PushMapPoint, PushMapValue> PushMapFiles::found() const {
@@ -204,7 +191,7 @@ void PushMapFiles::WriteMap() const {
             Text(value.lipm_height) + ',' + Text(value.impulse / value.lipm) +
             (with_steps_ ? StepCells(value) : "") + '\n';
   }
-  Replace(folder_ / "map.csv", text);
+  WriteFile(folder_ / "map.csv", text);
 }
 
 void PushMapFiles::WriteTrials() const {
@@ -214,7 +201,7 @@ void PushMapFiles::WriteTrials() const {
       text += Text(point) + Text(impulse) + Text(trial);
     }
   }
-  Replace(folder_ / "trials.csv", text);
+  WriteFile(folder_ / "trials.csv", text);
 }
 
 std::string TaskSetName(const std::vector<std::string>& with,

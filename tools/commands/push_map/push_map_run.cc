@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <fstream>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
 
+#include "poise/robot/output_file.h"
 #include "poise/sim/push.h"
 #include "poise/sim/run.h"
 #include "poise/sim/step_yardstick.h"
@@ -269,12 +269,8 @@ nlohmann::json MapToJson(const PushMapPlan& plan, const PushMapFiles& files) {
 }
 
 void WriteMapPage(const PushMapPlan& plan, const PushMapFiles& files) {
-  const fs::path file = plan.folder / "map.html";
-  std::ofstream stream(file, std::ios::binary);
-  stream << FillPage(kMapPage, MapToJson(plan, files));
-  if (!stream.flush()) {
-    throw std::invalid_argument(file.string() + ": cannot be written");
-  }
+  WriteFile(plan.folder / "map.html",
+            FillPage(kMapPage, MapToJson(plan, files)));
 }
 
 }  // namespace poise

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "poise/robot/output_file.h"
 #include "poise/sim/log/open_log.h"
 #include "poise/sim/log/run_summary.h"
 #include "poise/tools/commands/report/add_meshes.h"
@@ -70,15 +71,8 @@ std::string NameOf(const path& run_dir) {
 void WritePage(json runs, const path& html) {
   const std::string page = FillPage(
       kReportPage, {{"format", "poise-report-1"}, {"runs", std::move(runs)}});
-  if (html.has_parent_path()) {
-    std::error_code ignored;
-    std::filesystem::create_directories(html.parent_path(), ignored);
-  }
-  std::ofstream stream(html, std::ios::binary);
-  stream << page;
-  if (!stream.flush()) {
-    throw std::invalid_argument(html.string() + ": cannot be written");
-  }
+  if (html.has_parent_path()) MakeFolder(html.parent_path());
+  WriteFile(html, page);
 }
 
 void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {

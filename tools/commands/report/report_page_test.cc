@@ -223,7 +223,7 @@ TEST(ReportPage, NamesTheFileThatCannotBeReadOrWritten) {
                 "again, or remove this file to see the run without its robot");
   fs::remove(run / "robot.json");
   EXPECT_EQ(error([&] { WriteReport({run}, run); }),
-            run.string() + ": cannot be written");
+            run.string() + ": cannot be written: Is a directory");
   EXPECT_EQ(error([&] { WriteReport({}, run / "a.html"); }),
             "a report must show one run or two, not 0");
   EXPECT_EQ(error([&] {

@@ -2,8 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace poise {
+
+/// Replaces the content of a file by `text`, in one step: a reader, or an interrupted
+/// program, sees either the old file or the new one. A device or a pipe is written
+/// directly. Throws std::invalid_argument with the name of the file and the system's
+/// reason if the file cannot be written; the old file then stays.
+void WriteFile(const std::filesystem::path& file, std::string_view text);
+
+/// Makes a folder, and those above, if they do not exist. Throws std::invalid_argument
+/// with the name of the folder and the system's reason if there can be no such folder, or
+/// if no file can be written there.
+void MakeFolder(const std::filesystem::path& folder);
 
 /// Throws std::invalid_argument with the name of a file and the system's reason
 /// if the file cannot be written. Changes nothing: does not create the file, and
