@@ -94,13 +94,21 @@ export function plotsOf(run) {
   ];
 }
 
-/** Returns the plot of the time of each tick, with the control period. */
+/**
+ * Returns the plot of the time of each tick, with the control period and the limit of the
+ * solver's time.
+ */
 export function timingPlot(run) {
   const period = 1e6 * (run.summary.control_dt ?? NaN);
+  const budget = run.summary.hqp?.budget_us;
   return {
     title: 'Control tick', unit: 'µs', floor: 0, least: 50,
-    hint: 'Time to compute the torques.',
-    marks: Number.isFinite(period) ? [{value: period, name: 'one tick'}] : [],
+    hint: 'Time to compute the torques.' +
+        (budget > 0 ? ' The budget is for the solver alone.' : ''),
+    marks: [
+      ...(Number.isFinite(period) ? [{value: period, name: 'one tick'}] : []),
+      ...(budget > 0 ? [{value: budget, name: 'budget'}] : []),
+    ],
     lines: [{name: 'computed in', channel: 'us', color: 'c3', width: 1.1}],
   };
 }

@@ -9,6 +9,7 @@ import {footprintsOf} from '../src/footprints.js';
 import {formatNumber, titleOf} from '../src/format.js';
 import {convexHull, copOf} from '../src/geometry.js';
 import {mostAtOnce, pushesText} from '../src/pushes.js';
+import {timingPlot} from '../src/specs.js';
 
 const base64 = (array) =>
   Buffer.from(array.buffer, array.byteOffset, array.byteLength)
@@ -196,4 +197,13 @@ test('footprints are the soles at the start and at each landing', () => {
   assert.ok(Math.abs(path[0][0] - 0.5) < 1e-3);
   const none = new Run({name: 'run', log: {rows: 3, motion}}, 'A');
   assert.deepEqual(footprintsOf(none, new Map([['left', sole]])), []);
+});
+
+test('the plot of ticks shows the control period and the budget, if there is one', () => {
+  const marks = (hqp) => timingPlot({summary: {control_dt: 0.001, hqp}}).marks;
+  const period = {value: 1000, name: 'one tick'};
+  assert.deepEqual(marks({budget_us: 300}), [period, {value: 300, name: 'budget'}]);
+  assert.deepEqual(marks({budget_us: 0}), [period]);
+  assert.deepEqual(marks(undefined), [period]);
+  assert.deepEqual(timingPlot({summary: {}}).marks, []);
 });
