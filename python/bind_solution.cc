@@ -174,6 +174,9 @@ void BindSolution(py::module_* module) {
       "The number of factorisations, or updates of one.");
   solution.def_readonly("microseconds", &PythonSolution::microseconds,
                         "The time of the solver, us.");
+  solution.def_readonly("modelled_seconds", &PythonSolution::modelled_seconds,
+                        "The predicted time of the solve, s. It depends on the "
+                        "work alone.");
   solution.def_property_readonly(
       "y",
       [](py::object self) {

@@ -51,6 +51,7 @@ class PythonSolver {
     solved->microseconds = std::chrono::duration<double, std::micro>(
                                std::chrono::steady_clock::now() - start)
                                .count();
+    solved->modelled_seconds = solver_->modelled_seconds();
     return solved;
   }
 

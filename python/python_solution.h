@@ -27,6 +27,7 @@ struct PythonSolution {
   PythonHierarchy source;
   Solution solution;
   double microseconds = 0;
+  double modelled_seconds = 0;
 };
 
 /// Returns a row for people: "level 0 'limits', row 2 'x'". C rows are the

@@ -112,9 +112,13 @@ class SolverTest(unittest.TestCase):
         cold = solver.solve(hierarchy)
         warm = solver.solve(hierarchy)
         self.assertLess(warm.iterations, cold.iterations)
+        self.assertLess(warm.modelled_seconds, cold.modelled_seconds)
         np.testing.assert_allclose(warm.y, cold.y, atol=1e-9)
         solver.forget()
-        self.assertEqual(solver.solve(hierarchy).iterations, cold.iterations)
+        again = solver.solve(hierarchy)
+        self.assertEqual(again.iterations, cold.iterations)
+        # The prediction is exact: it depends on the work alone.
+        self.assertEqual(again.modelled_seconds, cold.modelled_seconds)
 
     def test_accepts_larger_problems_later(self):
         solver = poise.Solver(2)
