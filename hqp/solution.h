@@ -13,8 +13,8 @@ enum class Status {
   kOptimal,
   /// No certified optimum: the levels above failed_level are optimal.
   kIterationLimit,
-  /// NaN or infinity in the rows, see CheckInput(); y is zero. Solver also refuses numbers
-  /// with which its answer overflows; failed_level is then 0.
+  /// NaN or infinity in the rows, see CheckInput(); y is zero. Solver and Cascade also
+  /// refuse numbers with which their answer overflows; failed_level is then 0.
   kNotFinite,
   /// lower > upper, a negative weight, or too many rows; y is zero.
   kBadInput,

@@ -285,6 +285,11 @@ TEST(Solver, ForgetsASearchThatOverflows) {
   EXPECT_EQ(solver.Solve(usual, &solution), Status::kOptimal);
   EXPECT_EQ(solution.y, expected.y);
   EXPECT_EQ(solution.iterations, expected.iterations);
+  // The cascade judges alike.
+  EXPECT_EQ(Cascade(2, capacity).Solve(too_large, &solution),
+            Status::kNotFinite);
+  EXPECT_TRUE(solution.y.isZero(0));
+  EXPECT_EQ(solution.failed_level, 0);
 }
 
 // 1e-17 y_1 is 1 at y_1 = 1e17, though 1 + 1e-17 is 1: the second level has two variables.

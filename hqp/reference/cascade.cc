@@ -109,14 +109,16 @@ Cascade::Cascade(int num_variables, const std::vector<LevelCapacity>& capacity,
 
 Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   solution->Reset();
-  solution->status = CheckInput(hierarchy, &solution->failed_level);
-  if (solution->status != Status::kOptimal) {
-    // The gaps of an invalid hierarchy stay infinite.
-    solution->certificate = certifier_.Certify(hierarchy, *solution);
-    return solution->status;
+  int failed_level;
+  const Status status = CheckInput(hierarchy, &failed_level);
+  if (status != Status::kOptimal) {
+    return Refuse(hierarchy, status, failed_level, solution);
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     SolveFromY(hierarchy, solution);
+    if (!solution->y.allFinite()) {
+      return Refuse(hierarchy, Status::kNotFinite, 0, solution);
+    }
     if (solution->status != Status::kOptimal) break;
     certifier_.Certify(hierarchy, solution);
     if (solution->certificate.worst() <= Certifier::kCertified) {
@@ -125,6 +127,16 @@ Status Cascade::Solve(const Hierarchy& hierarchy, Solution* solution) noexcept {
   }
   certifier_.Truncate(hierarchy, solution);
   return solution->status;
+}
+
+// Writes y = 0. The gaps of an invalid hierarchy stay infinite.
+Status Cascade::Refuse(const Hierarchy& hierarchy, Status status,
+                       int failed_level, Solution* solution) {
+  solution->Reset();
+  solution->status = status;
+  solution->failed_level = failed_level;
+  solution->certificate = certifier_.Certify(hierarchy, *solution);
+  return status;
 }
 
 // Makes one pass, from solution->y. The steps of the second pass are small, and

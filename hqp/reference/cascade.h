@@ -47,6 +47,8 @@ class Cascade {
     int level, row;
     bool is_equality;
   };
+  Status Refuse(const Hierarchy& hierarchy, Status status, int failed_level,
+                Solution* solution);
   void SolveFromY(const Hierarchy& hierarchy, Solution* solution);
   bool SolveLevel(const Hierarchy& hierarchy, int level, Solution* solution);
   std::vector<RowIndex> FindRows(const Hierarchy& hierarchy, int level) const;
