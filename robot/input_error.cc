@@ -14,6 +14,10 @@ InputError InputError::OfValue(const std::string& field,
   return error;
 }
 
+std::string EntryPath(const std::string& list, std::size_t entry) {
+  return list + "[" + std::to_string(entry) + "]";
+}
+
 std::string InputError::Say(
     const std::function<std::string(const std::string& field)>& name) const {
   if (text_.empty()) return what();

@@ -1,9 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
+
+#include "poise/robot/finding.h"
 
 namespace poise {
 
@@ -40,5 +43,23 @@ class InputError : public std::invalid_argument {
   std::string text_;  // Empty if what() does not begin with the field.
   std::string rest_;
 };
+
+/// Returns the path of an entry of a list: "pushes[2]".
+std::string EntryPath(const std::string& list, std::size_t entry);
+
+/// Returns make(). If it throws a std::invalid_argument that names neither a field nor a
+/// file, throws it as an InputError of `field`.
+template <typename Make>
+auto MakeOfField(const std::string& field, Make make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const InputError&) {
+    throw;
+  } catch (const Refusal&) {  // Already names its file.
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw InputError(field, error.what());
+  }
+}
 
 }  // namespace poise

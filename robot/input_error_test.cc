@@ -30,5 +30,22 @@ TEST(InputError, KeepsAMessageWithoutAFieldPath) {
   EXPECT_EQ(error.field(), "robot");
 }
 
+TEST(MakeOfField, NamesTheFieldUnlessTheErrorNamesOneOrAFile) {
+  EXPECT_EQ(MakeOfField("robot", [] { return 3; }), 3);
+  const auto field_of = [](const auto& error) -> std::string {
+    try {
+      MakeOfField(EntryPath("pushes", 2), [&] { throw error; });
+    } catch (const InputError& input_error) {
+      return input_error.field();
+    } catch (const Refusal&) {
+      return "a file";
+    }
+    return "";
+  };
+  EXPECT_EQ(field_of(std::invalid_argument("is wrong")), "pushes[2]");
+  EXPECT_EQ(field_of(InputError("robot", "is wrong")), "robot");
+  EXPECT_EQ(field_of(Refusal("a.urdf", 1, "is wrong")), "a file");
+}
+
 }  // namespace
 }  // namespace poise

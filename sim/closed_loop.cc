@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "poise/robot/control/posture/one_foot.h"
-#include "poise/robot/control/task_set.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/input_error.h"
 #include "poise/sim/command/fit_to_robot.h"
+#include "poise/sim/command/make_controller.h"
 #include "poise/sim/command/push_bound.h"
 #include "poise/sim/command/shift_height.h"
 #include "poise/sim/observation.h"
@@ -27,35 +27,6 @@ constexpr double kLeastLean = 0.01;
 
 // The noise of the sensors must not depend on the random start state.
 constexpr unsigned kSensorSeed = 0x5eed;
-
-// Returns the robot of the controller, with the wrong masses of the scenario.
-Robot MakeBelievedRobot(const Robot& robot, const Scenario& scenario) {
-  Robot believed = robot;
-  believed.model.tree =
-      robot.model.tree.WithScaledInertias(1 + scenario.control.mass_error);
-  for (JointLimits& limits : believed.model.limits) {
-    limits.effort *= scenario.plant.torque_scale;
-    if (scenario.plant.joint_damping) continue;
-    limits.damping = 0;  // The plant's joints have none.
-    limits.friction = 0;
-  }
-  return believed;
-}
-
-// Calls make(). An error that does not name a field gets `field`: a field of
-// the scenario, or "robot".
-template <typename Make>
-auto MakeOf(const std::string& field, Make make) -> decltype(make()) {
-  try {
-    return make();
-  } catch (const InputError&) {
-    throw;
-  } catch (const Refusal&) {  // Already names its file.
-    throw;
-  } catch (const std::invalid_argument& error) {
-    throw InputError(field, error.what());
-  }
-}
 
 constexpr char kGaitMoves[] =
     " s: from the first step on, the gait alone moves the ";
@@ -75,62 +46,6 @@ std::string Name(const StanceEvent& event) {
   return "";
 }
 
-std::string Entry(const char* list, std::size_t i) {
-  return std::string(list) + "[" + std::to_string(i) + "]";
-}
-
-void Switch(const std::vector<std::string>& tasks, bool on, Stack* stack) {
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (stack->Enable(tasks[i], on)) continue;
-    throw InputError(Entry(on ? "tasks.with" : "tasks.without", i),
-                     UnknownTask(tasks[i], *stack));
-  }
-}
-
-std::unique_ptr<Controller> MakeController(
-    const Robot& robot, const ControlSettings& settings,
-    const std::function<void(Stack*)>& add_tasks) {
-  ControllerOptions options;
-  options.add_tasks = add_tasks;
-  options.dt = settings.dt;
-  options.friction = settings.friction;
-  options.inscribed = settings.inscribed;
-  options.feedforward = settings.feedforward;
-  options.weighted = settings.weighted;
-  options.drag_compensation = settings.drag_compensation;
-  if (settings.budget_clock && settings.budget_us == 0) {
-    throw InputError::OfValue("control.budget_clock",
-                              " is true, must come with ", "control.budget_us",
-                              " above 0 us");
-  }
-  if (settings.budget_clock) {
-    options.max_seconds = 1e-6 * settings.budget_us;
-    options.now = [] {
-      const auto now = std::chrono::steady_clock::now().time_since_epoch();
-      return std::chrono::duration<double>(now).count();
-    };
-  } else {
-    options.max_modelled_seconds = 1e-6 * settings.budget_us;
-  }
-  std::vector<std::string> switched = settings.with;
-  switched.insert(switched.end(), settings.without.begin(),
-                  settings.without.end());
-  const char* set = "tasks.set";
-  options.frames = MakeOf(
-      set, [&] { return FindTaskLinks(settings.tasks, switched, robot); });
-  auto controller = MakeOf(
-      "robot", [&] { return std::make_unique<Controller>(robot, options); });
-  MakeOf(set, [&] { ApplyTaskSet(settings.tasks, &controller->stack()); });
-  Switch(settings.without, false, &controller->stack());
-  Switch(settings.with, true, &controller->stack());
-  if (!controller->stack().set_ramp(settings.ramp)) {
-    throw InputError::OfValue("control.ramp",
-                              " is " + PrintNumber(settings.ramp) +
-                                  ", must be finite and not negative");
-  }
-  return controller;
-}
-
 State ToState(const Measurement& measurement) {
   const int n = static_cast<int>(measurement.q_joints.size());
   State state{measurement.time, Eigen::VectorXd(n + 7), Eigen::VectorXd(n + 6)};
@@ -144,8 +59,8 @@ std::vector<PushOnRobot> Aim(const std::vector<Push>& pushes,
                              const Robot& robot) {
   std::vector<PushOnRobot> aimed;
   for (std::size_t i = 0; i < pushes.size(); ++i) {
-    MakeOf(Entry("pushes", i) + ".link",
-           [&] { aimed.emplace_back(robot, pushes[i]); });
+    MakeOfField(EntryPath("pushes", i) + ".link",
+                [&] { aimed.emplace_back(robot, pushes[i]); });
   }
   return aimed;
 }
@@ -159,14 +74,14 @@ Scenario Fitted(const Robot& robot, const Scenario& scenario) {
     Push& push = fitted.pushes[i];
     if (push.impulse_fraction && !(push.duration > 0)) {
       throw InputError::OfValue(
-          Entry("pushes", i) + ".duration",
+          EntryPath("pushes", i) + ".duration",
           " is " + PrintNumber(push.duration) +
               " s, must be above 0 s, because the impulse of the push is a "
               "fraction of the bound");
     }
     if (push.impulse_fraction && !BoundOfPush(robot, robot.q_nominal, push)) {
       throw InputError::OfValue(
-          Entry("pushes", i) + (push.point ? ".point" : ".link"),
+          EntryPath("pushes", i) + (push.point ? ".point" : ".link"),
           " is below the soles, must be above them, because the impulse of the "
           "push is a fraction of the bound at this height; give the force in "
           "N");
@@ -183,13 +98,12 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario,
                        const std::function<void(Stack*)>& add_tasks)
     : robot_(robot),
       scenario_(Fitted(robot, scenario)),
-      plant_(MakeOf("robot",
-                    [&] {
-                      return MakePlant(robot, scenario_.plant_kind,
-                                       scenario_.plant);
-                    })),
-      controller_(MakeController(MakeBelievedRobot(robot, scenario_),
-                                 scenario_.control, add_tasks)),
+      plant_(MakeOfField("robot",
+                         [&] {
+                           return MakePlant(robot, scenario_.plant_kind,
+                                            scenario_.plant);
+                         })),
+      controller_(MakeController(robot, scenario_, add_tasks)),
       sensors_(robot, scenario_.sensors, scenario_.seed ^ kSensorSeed),
       observer_(robot, scenario_.plant.ground),
       pushes_(Aim(scenario_.pushes, robot)),
@@ -208,15 +122,15 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario,
   controller_->Start(
       MakeStartState(robot, on_ground, scenario_.plant.ground, scenario_.seed));
   if (scenario_.control.estimator) {
-    estimator_ =
-        MakeOf("robot", [&] { return std::make_unique<Estimator>(robot); });
+    estimator_ = MakeOfField(
+        "robot", [&] { return std::make_unique<Estimator>(robot); });
     estimator_->Start(sensors_.Measure(plant_->Sense()));
     state_ = ToState(sensors_.measurement());
   }
   if (scenario_.steps) {
     GaitSettings settings;
     settings.dt = scenario_.control.dt;
-    gait_ = MakeOf("robot", [&] {
+    gait_ = MakeOfField("robot", [&] {
       return std::make_unique<Gait>(controller_->robot(), settings);
     });
   }
@@ -226,7 +140,8 @@ ClosedLoop::ClosedLoop(const Robot& robot, const Scenario& scenario,
   lean_path_ = LeanPath(controller_->reference().R_WB);
   for (std::size_t i = 0; i < scenario_.stance.size(); ++i) {
     const std::string& foot = scenario_.stance[i].foot;
-    if (!foot.empty()) MakeOf(Entry("stance", i), [&] { FindFoot(foot); });
+    if (!foot.empty())
+      MakeOfField(EntryPath("stance", i), [&] { FindFoot(foot); });
   }
   command_.tau.setZero(robot.model.tree.num_joints());
   start_ = plant_->Sense();

@@ -183,11 +183,6 @@ std::vector<Push> ReadPushes(YamlFields* fields) {
   return pushes;
 }
 
-// Returns the name of a list entry: "pushes[2]".
-std::string Entry(const char* list, std::size_t i) {
-  return std::string(list) + "[" + std::to_string(i) + "]";
-}
-
 bool IsMultiple(double a, double b) {
   const double ratio = a / b;
   return std::abs(ratio - std::round(ratio)) < 1e-6;
@@ -206,7 +201,7 @@ void CheckOrder(const std::vector<StanceEvent>& stance) {
   std::string in_the_air;
   for (std::size_t i = 0; i < stance.size(); ++i) {
     const StanceEvent& event = stance[i];
-    const std::string which = Entry("stance", i) + ".";
+    const std::string which = EntryPath("stance", i) + ".";
     if (event.at < before) {
       throw InputError::OfValue(
           which + "at", " is " + PrintNumber(event.at) + ", must be at least " +
@@ -345,18 +340,18 @@ void Validate(const Scenario& scenario) {
   RequireFew("pushes", copy.pushes.size());
   RequireFew("stance", copy.stance.size());
   for (std::size_t i = 0; i < copy.pushes.size(); ++i) {
-    Check(Entry("pushes", i), Fields(&copy.pushes[i]));
-    CheckFraction(Entry("pushes", i), copy.pushes[i]);
+    Check(EntryPath("pushes", i), Fields(&copy.pushes[i]));
+    CheckFraction(EntryPath("pushes", i), copy.pushes[i]);
   }
   for (std::size_t i = 0; i < copy.stance.size(); ++i) {
-    Check(Entry("stance", i), Fields(&copy.stance[i]));
+    Check(EntryPath("stance", i), Fields(&copy.stance[i]));
   }
   CheckOrder(copy.stance);
   for (std::size_t i = 0; i < copy.stance.size(); ++i) {
     const bool is_step = copy.stance[i].kind == StanceEvent::Kind::kStep;
     if (!is_step || copy.steps) continue;
     throw InputError::OfValue(
-        Entry("stance", i) + ".step",
+        EntryPath("stance", i) + ".step",
         " is " + Quoted(copy.stance[i].foot) + ", must come with steps: on");
   }
   CheckTimes(copy);
