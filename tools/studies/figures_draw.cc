@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <sstream>
 
 #include "poise/robot/output_file.h"
 #include "poise/sim/log/columns.h"
 #include "poise/sim/outcome.h"
+#include "poise/tools/commands/format.h"
 #include "poise/tools/drawing/plot.h"
 #include "poise/tools/drawing/robot_picture.h"
 #include "poise/tools/studies/recorded_run.h"
@@ -23,16 +22,6 @@ const Color kBlue = HexColor(0x1f66d1);
 const Color kOrange = HexColor(0xd9660b);
 const Color kGrey = HexColor(0x767e88);
 const Color kInk = HexColor(0x16191d);
-
-__attribute__((format(printf, 1, 2))) std::string Format(const char* format,
-                                                         ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 double Largest(const std::vector<double>& values) {
   double largest = 0;

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "poise/robot/finding.h"
 #include "poise/robot/output_file.h"
 #include "poise/sim/observation.h"
 #include "poise/sim/outcome.h"
+#include "poise/tools/commands/format.h"
 #include "poise/tools/drawing/robot_picture.h"
 
 namespace poise {
@@ -18,12 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPictures = "figures/robots";
-
-std::string Format(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 // Returns "35 mm" for a run that recovered, the largest horizontal error of the
 // CoM, or else its outcome.

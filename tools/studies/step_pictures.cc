@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "poise/dynamics/tick.h"
 #include "poise/robot/output_file.h"
 #include "poise/sim/log/columns.h"
+#include "poise/tools/commands/format.h"
 #include "poise/tools/drawing/robot_picture.h"
 #include "poise/tools/studies/recorded_run.h"
 
@@ -31,12 +31,6 @@ struct Footprint {
   Outline outline;         // m.
   Eigen::Vector2d middle;  // m.
 };
-
-std::string Format(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 Color Faded(Color color, double opacity) {
   color[3] = opacity;

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <set>
 #include <string_view>
 
-#include "poise/sim/judge.h"
 #include "poise/sim/log/open_log.h"
 #include "poise/sim/log/run_summary.h"
+#include "poise/tools/commands/explain/ending.h"
 #include "poise/tools/commands/explain/foot_story.h"
 #include "poise/tools/commands/explain/loss_cause.h"
 #include "poise/tools/commands/explain/momentum_cost.h"
@@ -19,6 +18,7 @@
 #include "poise/tools/commands/explain/run_story.h"
 #include "poise/tools/commands/explain/short_story.h"
 #include "poise/tools/commands/explain/truncated_ticks.h"
+#include "poise/tools/commands/format.h"
 
 namespace poise {
 namespace {
@@ -30,12 +30,6 @@ constexpr size_t kMostRows = 10;    // Maximum in a sentence about a conflict.
 constexpr double kShort = 0.005;    // s. Shorter events get no sentence.
 constexpr double kRounding = 1e-6;  // s, rounding of a sum of ticks.
 constexpr double kSmallLoss = 0.5;  // N, N m, m/s2. Less gets no sentence.
-
-std::string Format(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
 
 std::string Milliseconds(double seconds) {
   return Format(" for %.0f ms", 1e3 * seconds);
@@ -130,39 +124,6 @@ std::string SayShare(const Span& span) {
   if (span.num_ticks >= all) return "";
   return " in " + std::to_string(span.num_ticks) + " of " +
          std::to_string(all) + " ticks";
-}
-
-// Returns true if the run was stopped before the robot fell, so that its
-// outcome is unknown.
-bool WasInterrupted(const json& summary) {
-  return summary.value("interrupted", json()) == true &&
-         !summary.value("fell_at", json()).is_number();
-}
-
-std::string Ending(const json& summary) {
-  if (WasInterrupted(summary)) {
-    const json at = summary.value("duration", json());
-    return "The run was interrupted" +
-           (at.is_number() ? Format(" at %.3f s", at.get<double>()) : "") +
-           " while the robot was still standing: the outcome is not known.";
-  }
-  const json recovered = summary.value("recovered", json());
-  if (recovered.is_null()) return "The end of the run is not recorded.";
-  if (recovered == true) return "The robot recovered.";
-  const json fell_at = summary.value("fell_at", json());
-  if (!fell_at.is_number()) {
-    const json after = summary.value("time_after_push", json());
-    if (after.is_number() && after < Judge::kEnd - kRounding) {
-      return Format("The run ends %.3g s", std::abs(after.get<double>())) +
-             (after < 0 ? " before" : " after") +
-             " the end of the push: too early to tell whether the robot "
-             "recovers.";
-    }
-    return "The robot did not fall, but did not return to its reference.";
-  }
-  const json by = summary.value("fell_by", json());
-  return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
-         (by.is_string() && by != "" ? ": " + by.get<std::string>() : "") + ".";
 }
 
 using Sentences = std::vector<std::pair<double, std::string>>;  // By time, s.

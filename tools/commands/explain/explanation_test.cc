@@ -140,6 +140,33 @@ TEST(Explanation, ReportsTheFall) {
   EXPECT_EQ(said["sentences"].back(), "The robot fell at 1.250 s.");
 }
 
+TEST(Explanation, NamesTheTaskThatWouldHavePreventedTheFall) {
+  const auto ending = [](const std::string& fell_by, const std::string& tasks) {
+    const nlohmann::json said = Explain(
+        MakeRun("switched_off", kPushed,
+                R"({"recovered": false, "fell_at": 1.25, "fell_by": ")" +
+                    fell_by + R"(", "tasks": )" + tasks + "}"));
+    return said["sentences"].back().get<std::string>();
+  };
+  const std::string tilted = "a foot tilted over 0.1 rad";
+  const std::string slid = "a foot slid over 30 mm";
+  const std::string fell = "The robot fell at 1.250 s: ";
+  EXPECT_EQ(ending(tilted, R"({"without": ["yaw", "cop"], "with": []})"),
+            fell + tilted +
+                ". No task kept the CoP inside the soles: `cop` was switched "
+                "off.");
+  EXPECT_EQ(ending(slid, R"({"without": ["friction"]})"),
+            fell + slid +
+                ". No task kept the forces inside the friction cones: "
+                "`friction` was switched off.");
+  for (const char* tasks :
+       {R"({"without": ["cop"], "with": ["zmp"]})", R"({"without": []})",
+        R"({"without": ["friction"]})", "{}", "null", "3"}) {
+    EXPECT_EQ(ending(tilted, tasks), fell + tilted + ".") << tasks;
+  }
+  EXPECT_EQ(ending(slid, R"({"without": ["cop"]})"), fell + slid + ".");
+}
+
 TEST(Explanation, OmitsEventsAfterAFall) {
   const nlohmann::json said = Explain(MakeRun(
       "fell_early",

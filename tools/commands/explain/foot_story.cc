@@ -2,12 +2,12 @@
 #include "poise/tools/commands/explain/foot_story.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string_view>
 
 #include "poise/sim/log/columns.h"
 #include "poise/tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/format.h"
 
 namespace poise {
 namespace {
@@ -31,12 +31,6 @@ std::string_view Begins(std::string_view phase) {
     if (phase == name) return words;
   }
   return "";
-}
-
-std::string Format(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "poise/tools/commands/explain/foot_story.h"
 #include "poise/tools/commands/explain/momentum_cost.h"
 #include "poise/tools/commands/explain/row_phrases.h"
+#include "poise/tools/commands/format.h"
 
 namespace poise {
 namespace {
@@ -30,12 +30,6 @@ struct Slip {
   std::string foot;
   double at;
 };
-
-std::string Format(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
 
 std::optional<double> Number(const json& summary, const char* key) {
   const auto at = summary.find(key);
