@@ -621,6 +621,22 @@ TEST(Explanation, SummarizesAFallInOrderOfCause) {
           "push: its impulse was 6.0 N s, a pendulum on these feet recovers "
           "from 4.0 N s."}));
   EXPECT_GT(said["sentences"].size(), story.size());
+  const auto advice = [&](const std::string& step_Ns) {
+    const nlohmann::json far =
+        Explain(MakeRun("far", log,
+                        Described(R"({"recovered": false, "fell_at": 0.425,
+          "impulse_Ns": 6, "lipm_height_Ns": 1, "step_Ns": )" +
+                                  step_Ns + "}")));
+    return far["story"].back().get<std::string>();
+  };
+  EXPECT_EQ(advice("2.9"),
+            "Only a smaller push would have helped: its impulse was 6.0 N s, a "
+            "pendulum recovers from 1.0 N s on these feet, and from 2.9 N s "
+            "with one step.");
+  EXPECT_EQ(advice("3.1"),
+            "A step or larger soles would have helped; so would a smaller "
+            "push: its impulse was 6.0 N s, a pendulum on these feet recovers "
+            "from 1.0 N s.");
 }
 
 TEST(Explanation, NamesSlipAsCauseOfAFall) {

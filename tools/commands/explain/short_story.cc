@@ -21,7 +21,10 @@ using nlohmann::json;
 constexpr size_t kMostCauses = 2;  // Maximum number of named reasons of a loss.
 constexpr size_t kMostRows = 2;    // Maximum number of named rows of a cause.
 constexpr double kSmallShare = 0.1;  // Smaller shares of a loss are not named.
-constexpr size_t kMostPushes = 4;    // Maximum number of named pushes.
+// Beyond this multiple of the bound with one step, no step is advised. Our humanoid recovers
+// from at most 1.15 times that bound, with several steps (docs/generated/step_map.md).
+constexpr double kBeyondSteps = 2;
+constexpr size_t kMostPushes = 4;  // Maximum number of named pushes.
 
 using TimedSentence = std::pair<double, std::string>;  // Its time, s.
 
@@ -201,13 +204,22 @@ std::string SayWhatHelps(const std::string& kind, const std::string& first,
       {"slip",
        "Rougher ground, or a lower friction coefficient in the controller, "
        "would have helped"}};
+  const auto impulse = Number(summary, "impulse_Ns");
+  const auto bearable = Number(summary, "lipm_height_Ns");
+  const auto with_step = Number(summary, "step_Ns");
+  if (is_pushed && impulse && bearable && with_step &&
+      *impulse > kBeyondSteps * *with_step) {
+    return "Only a smaller push would have helped: its impulse was " +
+           Format(
+               "%.1f N s, a pendulum recovers from %.1f N s on these feet, "
+               "and from %.1f N s with one step.",
+               *impulse, *bearable, *with_step);
+  }
   std::string text;
   for (const auto& [name, help] : kHelp) {
     if (kind == name) text = help;
   }
   if (text.empty()) text = "A wider limit would have helped: " + first;
-  const auto impulse = Number(summary, "impulse_Ns");
-  const auto bearable = Number(summary, "lipm_height_Ns");
   if (is_pushed && impulse && bearable && *impulse > *bearable) {
     text +=
         Format("; so would a smaller push: its impulse was %.1f N s",
