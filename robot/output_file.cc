@@ -28,9 +28,10 @@ void RequireWritableFolder(const fs::path& folder, const fs::path& named) {
 }  // namespace
 
 void WriteFile(const fs::path& file, std::string_view text) {
-  RequireWritable(file);
   std::error_code error;
   const bool is_device = fs::exists(file, error) && !fs::is_regular_file(file);
+  // A pipe must be opened once only: its reader may stop when it is closed.
+  if (!is_device) RequireWritable(file);
   // A link stays a link.
   fs::path target = is_device ? file : fs::weakly_canonical(file, error);
   if (error) Throw(file, "cannot be written", error);

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <future>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -87,6 +89,19 @@ TEST(WriteFile, GivesTheReasonOfTheSystem) {
   EXPECT_EQ(refusal(folder / "no" / "file"),
             (folder / "no" / "file").string() +
                 ": cannot be written: No such file or directory");
+}
+
+TEST(WriteFile, OpensAPipeOnce) {
+  const fs::path pipe = Folder("pipe") / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  // The reader gets all that is written until the pipe is closed for the first time.
+  // Often enough, so that a second opening would be seen.
+  for (int i = 0; i < 200; ++i) {
+    std::future<std::string> read =
+        std::async(std::launch::async, [&] { return Read(pipe); });
+    WriteFile(pipe, "text");
+    ASSERT_EQ(read.get(), "text");
+  }
 }
 
 TEST(MakeFolder, MakesFoldersOrGivesTheReason) {

@@ -150,7 +150,8 @@ TEST(SaveProfile, NamesTheFileThatIsNotWritable) {
     SaveProfile(robot, profile, file);
     ADD_FAILURE() << "SaveProfile() did not throw";
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(error.what(), file.string() + ": cannot be written: Not a directory");
+    EXPECT_EQ(error.what(),
+              file.string() + ": cannot be written: Not a directory");
   }
 }
 
