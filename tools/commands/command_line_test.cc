@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -103,6 +105,22 @@ TEST(ParseCommandLine, NamesOptionValueAndWhatIsWanted) {
   }
   EXPECT_EQ(Refusal({}), "file is missing, see --help");
   EXPECT_EQ(Refusal({"--nope"}), "option '--nope' is unknown");
+}
+
+TEST(RunToolDeathTest, SaysThatItIsInterrupted) {
+  const auto interrupted = [] {
+    (void)std::raise(SIGINT);
+    return 3;
+  };
+  EXPECT_EXIT((void)RunTool("figures", interrupted),
+              testing::KilledBySignal(SIGINT), "figures: interrupted");
+  // A program in the background ignores SIGINT.
+  EXPECT_EXIT(
+      {
+        std::signal(SIGINT, SIG_IGN);
+        std::exit(RunTool("figures", interrupted));
+      },
+      testing::ExitedWithCode(3), "^$");
 }
 
 }  // namespace
