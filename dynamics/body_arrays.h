@@ -6,8 +6,8 @@
 
 namespace poise {
 
-// The types below are members of Tree and of scratch memories, so their sizes are
-// public. Their arithmetic is private, see simd/README.md.
+// The types below are members of Tree and of scratch memories, so their sizes
+// are public. Their arithmetic is private, see simd/README.md.
 
 /// Vec3 is a vector of three doubles for loops with lanes. Eigen's Vector3d
 /// vectorizes inside one vector, which keeps the compiler from giving each body

@@ -68,8 +68,8 @@ void ComputeCentroidalMomentum(const Tree& tree,
 ///                                        [ 0    1   ]
 /// The lower three rows of H_G are the mass times the Jacobian of G.
 ///
-/// @param M        nv x nv joint-space inertia, from ComputeCrba(); rows 0-5 are
-///                 read.
+/// @param M        nv x nv joint-space inertia, from ComputeCrba(); rows 0-5
+///                 are read.
 /// @param c        nv bias forces *without gravity*, from ComputeCoriolis();
 ///                 entries 0-5 are read.
 /// @param p_BoG_W  position of G from the base's origin, in m.

@@ -91,8 +91,8 @@ void ImportForces(Library library, const Tree& tree,
                   Eigen::Ref<Eigen::VectorXd> tau) noexcept;
 
 /// Converts the joint-space inertia, M_theirs = X M X': the kinetic energy
-/// v' M v / 2 does not change. All entries are written, also those below the diagonal
-/// that Pinocchio's crba() may leave out.
+/// v' M v / 2 does not change. All entries are written, also those below the
+/// diagonal that Pinocchio's crba() may leave out.
 void ExportMassMatrix(Library library, const Tree& tree,
                       const Eigen::Ref<const Eigen::VectorXd>& q,
                       const Eigen::Ref<const Eigen::MatrixXd>& M,

@@ -150,9 +150,9 @@ struct Variation {
 // The last term is there because forces from outside keep their directions: the
 // first term turns them with the subtree, the last one turns them back. The
 // linear part of `rate` is uniform, and no force depends on a uniform velocity.
-//     dtau_b = S_b' dF_body    for b = body and the joints between it and the base,
+//     dtau_b = S_b' dF_body    for b = body and the joints up to the base,
 //     dtau_b = rate_2' H_b + (angular part of rate)' S_coriolis_b
-//              + (angular part of S)' S_outside_b    for b in the subtree of body.
+//              + (angular part of S)' S_outside_b    for b in its subtree.
 // A joint in the subtree is carried along S too, so that S x* F_b has no
 // effect.
 void FillColumn(const Tree& tree, const RneaDerivatives& out, bool has_outside,

@@ -17,8 +17,8 @@ namespace poise {
 /// bodies.
 ///
 /// | member | shape | meaning | row, column |
-/// | dtau_dq | nv x nv | columns 3-5 are 0: tau is independent of p_WB | v, dq |
-/// | dtau_dv | nv x nv | columns 3-5 are 0: tau is independent of v_WB | v, v |
+/// | dtau_dq | nv x nv | columns 3-5 are 0: independent of p_WB | v, dq |
+/// | dtau_dv | nv x nv | columns 3-5 are 0: independent of v_WB | v, v |
 /// | dtau_dvdot | nv x nv | M, symmetric to the bit | v, v |
 struct RneaDerivatives {
   explicit RneaDerivatives(const Tree& tree);

@@ -10,8 +10,8 @@ namespace poise {
 /// Integrates a velocity that stays constant in world axes for a time dt:
 ///     q_out = q [+] v dt = [p_WB + v_WB dt; exp(w_WB dt) R_WB; joints + v dt].
 ///
-/// @param q      nq configuration, see Tree. The quaternion may have any norm but
-///               0, which gives NaN.
+/// @param q      nq configuration, see Tree. The quaternion may have any norm
+///               but 0, which gives NaN.
 /// @param v      nv velocity, see Tree.
 /// @param dt     s; may be negative.
 /// @param q_out  nq, with a unit quaternion. May be q itself.
@@ -24,8 +24,8 @@ void Integrate(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,
 /// time, the inverse of Integrate():   q_from [+] v = q_to.
 ///
 /// @param q_from, q_to  nq; their quaternions may be of any norm but 0.
-/// @param v  nv. The rotation takes the shorter way: its norm is at most pi rad.
-/// Costs O(n). Does not allocate, does not throw.
+/// @param v  nv. The rotation takes the shorter way: its norm is at most pi
+/// rad. Costs O(n). Does not allocate, does not throw.
 void Difference(const Tree& tree,
                 const Eigen::Ref<const Eigen::VectorXd>& q_from,
                 const Eigen::Ref<const Eigen::VectorXd>& q_to,

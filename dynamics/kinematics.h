@@ -12,8 +12,8 @@ namespace poise {
 
 /// Computes the pose of every body,
 ///     X_WB = X_WP X_PF X_FB(q_j).
-/// @param q     nq, see Tree. The quaternion may have any norm but 0, which gives
-///              NaN in all poses.
+/// @param q     nq, see Tree. The quaternion may have any norm but 0, which
+///              gives NaN in all poses.
 /// @param X_WB  by body, sized.
 /// Costs O(n), a sine and a cosine a body. Does not allocate, does not throw.
 void ComputePoses(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& q,

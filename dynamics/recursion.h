@@ -33,7 +33,7 @@ namespace poise {
 /// |     |    | then mass moments of its subtree | own | SumInertias |
 /// | F_W | 6 | force on the body at its acceleration | own | SweepForces |
 /// |     |   | then force on its subtree | own | SumForces |
-/// | H_W | 6 | momentum of the subtree at unit joint rate | own | SweepMomenta |
+/// | H_W | 6 | subtree's momentum at unit joint rate | own | SweepMomenta |
 /// | zero | (nv in all) | zeros | | the constructor |
 struct Recursion {
   explicit Recursion(const Tree& tree);

@@ -149,7 +149,8 @@ class TreeBuilder {
   /// Builds the tree. Build() and the functions above throw
   /// std::invalid_argument, which names the link or joint, its value and the
   /// valid range, if
-  /// - there is no root, or there are several; a cycle; a link with two parents,
+  /// - there is no root, or there are several; a cycle; a link with two
+  ///   parents,
   /// - a name is unknown or repeated,
   /// - an axis is zero, or a matrix deviates from a rotation by more than 1e-5,
   /// - an inertia is unphysical, or a number is not finite.

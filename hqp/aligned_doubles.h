@@ -7,9 +7,9 @@
 
 namespace poise {
 
-/// Allocates memory that begins at a cache line. If the rows of a matrix are a multiple of
-/// four doubles apart, none of their vectors of four doubles then lies in two lines, which
-/// would take longer to load.
+/// Allocates memory that begins at a cache line. If the rows of a matrix are a
+/// multiple of four doubles apart, none of their vectors of four doubles then
+/// lies in two lines, which would take longer to load.
 template <typename T>
 struct CacheLineAllocator {
   using value_type = T;

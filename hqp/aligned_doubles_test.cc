@@ -16,7 +16,8 @@ bool BeginsALine(const AlignedDoubles& x) {
   return reinterpret_cast<std::uintptr_t>(x.data()) % kCacheLine == 0;
 }
 
-// Vectors of all small sizes live at the same time, so that they lie one after the other.
+// Vectors of all small sizes live at the same time, so that they lie one after
+// the other.
 TEST(AlignedDoubles, BeginAtACacheLine) {
   std::vector<AlignedDoubles> all;
   for (int size = 1; size <= 100; ++size) all.emplace_back(size, size);

@@ -135,8 +135,8 @@ void Certifier::JudgeLevel(const Hierarchy& hierarchy, int level,
   JudgeMultipliers(hierarchy, level, solution, certificate);
 }
 
-// Adds factor_ times the rows of a block to the gradient, and |size_| times their
-// absolute entries to the magnitude of the gradient's terms.
+// Adds factor_ times the rows of a block to the gradient, and |size_| times
+// their absolute entries to the magnitude of the gradient's terms.
 void Certifier::AddToGradient(const double* rows, const Span* spans,
                               int count) {
   num_terms_ += AddRowsWithSizes(rows, static_cast<int>(gradient_.size()),
@@ -253,7 +253,8 @@ void Certifier::JudgeInequalities(const Hierarchy& hierarchy, int level,
     rows[i].rounding = rounding;
     level_sums.rounding += (slack + rounding / 2) * rounding;
     level_sums.slack_rounding += rounding * rounding;
-    // The margin of such a row would be infinite, and no multiplier on it wrong.
+    // The margin of such a row would be infinite, and no multiplier on it
+    // wrong.
     if (std::isinf(rows[i].norm)) level_sums.feasibility = kInfinity;
     if (violation > 0 && rows[i].norm > 0) {
       farthest_ = std::max(farthest_, std::abs(bound) / rows[i].norm);

@@ -16,40 +16,41 @@ class Certifier {
  public:
   Certifier(int num_variables, const std::vector<LevelCapacity>& capacity);
 
-  /// Allocates memory for `max_inequalities` inequalities, which the levels share.
-  /// pre: the judged levels of a hierarchy do not have more together.
+  /// Allocates memory for `max_inequalities` inequalities, which the levels
+  /// share. pre: the judged levels of a hierarchy do not have more together.
   Certifier(int num_variables, const std::vector<LevelCapacity>& capacity,
             int max_inequalities);
 
   /// Certifies all levels, or those above solution.failed_level if there is
   /// one. Does not read solution.certificate. Cost: about 6 flops for each
-  /// entry in the span of a row, 4 more in equalities and violated rows, and 4 for each
-  /// entry and nonzero multiplier. A level that cannot be met takes up to four
-  /// more products of y or a direction with its rows, and with those above. Does not
-  /// allocate.
+  /// entry in the span of a row, 4 more in equalities and violated rows, and 4
+  /// for each entry and nonzero multiplier. A level that cannot be met takes up
+  /// to four more products of y or a direction with its rows, and with those
+  /// above. Does not allocate.
   Certificate Certify(const Hierarchy& hierarchy,
                       const Solution& solution) noexcept;
 
   /// Certifies the answer and stores its certificate and gaps in it.
   void Certify(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
-  /// After Certify() or Truncate(): how far the cost of a level may be above its
-  /// optimum, given the levels above, in the unit of the cost. After Truncate(), this is
-  /// the whole cost for failed_level, and infinite below it; after Certify(), it is
-  /// infinite from failed_level on. It holds for all optima of the levels
-  /// above that are no farther from y than 2 (|y| + largest distance from y = 0 of an
-  /// equality or violated row, up to this level), if y meets these levels but for
-  /// rounding: multipliers at y stand for those at the optimum. It contains the rounding
-  /// of the cost and of the gradient, and but for this rounding, it never exceeds the
-  /// cost. docs/hqp-gap.md derives it.
+  /// After Certify() or Truncate(): how far the cost of a level may be above
+  /// its optimum, given the levels above, in the unit of the cost. After
+  /// Truncate(), this is the whole cost for failed_level, and infinite below
+  /// it; after Certify(), it is infinite from failed_level on. It holds for all
+  /// optima of the levels above that are no farther from y than 2 (|y| +
+  /// largest distance from y = 0 of an equality or violated row, up to this
+  /// level), if y meets these levels but for rounding: multipliers at y stand
+  /// for those at the optimum. It contains the rounding of the cost and of the
+  /// gradient, and but for this rounding, it never exceeds the cost.
+  /// docs/hqp-gap.md derives it.
   double gap(int level) const { return gap_[static_cast<size_t>(level)]; }
 
   /// Upper limit of Certificate::worst() for an answer with status kOptimal.
   static constexpr double kCertified = 1e-9;
 
-  /// Certifies the levels up to failed_level in order, and stores certificate and gaps in
-  /// the answer. The first level with which worst() exceeds kCertified becomes
-  /// failed_level, and the status kIterationLimit.
+  /// Certifies the levels up to failed_level in order, and stores certificate
+  /// and gaps in the answer. The first level with which worst() exceeds
+  /// kCertified becomes failed_level, and the status kIterationLimit.
   void Truncate(const Hierarchy& hierarchy, Solution* solution) noexcept;
 
  private:
@@ -78,8 +79,9 @@ class Certifier {
   void AddToGradient(const double* rows, const Span* spans, int count);
   void JudgeRows(const Hierarchy& hierarchy, int level,
                  const Solution& solution, Certificate* certificate);
-  /// Judges the equalities of a level: adds them to its sums and its gradient, and sets
-  /// residual_ and farthest_. JudgeInequalities() does so for its inequalities.
+  /// Judges the equalities of a level: adds them to its sums and its gradient,
+  /// and sets residual_ and farthest_. JudgeInequalities() does so for its
+  /// inequalities.
   void JudgeEqualities(const Hierarchy& hierarchy, int level,
                        const Solution& solution, CostSums* total);
   void JudgeInequalities(const Hierarchy& hierarchy, int level,
@@ -122,24 +124,26 @@ class Certifier {
   std::vector<RowSums> sums_;  ///< By row of one block, or one level.
   /// By row of one block: what AddToGradient() multiplies it with.
   std::vector<double> factor_, size_;
-  /// By level: the cost, the cost of the magnitudes of its terms, and its rounding.
+  /// By level: the cost, the cost of the magnitudes of its terms, and its
+  /// rounding.
   std::vector<double> cost_, cost_size_, cost_rounding_;
-  /// By level: norm of the rounding of all residuals and slacks, each times the root of
-  /// its weight.
+  /// By level: norm of the rounding of all residuals and slacks, each times the
+  /// root of its weight.
   std::vector<double> slack_rounding_;
   /// By level: norm of the gradient of its Lagrangian, and its rounding.
   std::vector<double> error_;
   std::vector<double> gap_;  ///< By level.
-  /// By level: gap_, or the cost in exact arithmetic if that is smaller and known.
+  /// By level: gap_, or the cost in exact arithmetic if that is smaller and
+  /// known.
   std::vector<double> exact_gap_;
-  /// By level: how far the cost may be below its optimum, because y misses the levels
-  /// above.
+  /// By level: how far the cost may be below its optimum, because y misses the
+  /// levels above.
   std::vector<double> undercut_;
-  /// By level: largest change of all residuals and slacks from y to an optimum, each
-  /// times the root of its weight.
+  /// By level: largest change of all residuals and slacks from y to an optimum,
+  /// each times the root of its weight.
   std::vector<double> change_;
-  /// By level and level above: norm of the multipliers that the level puts on the rows
-  /// above, each divided by the root of the row's weight.
+  /// By level and level above: norm of the multipliers that the level puts on
+  /// the rows above, each divided by the root of the row's weight.
   Eigen::MatrixXd multiplier_norm_;
   std::vector<bool> is_sharp_;  ///< See SharpenChanges().
   double farthest_ = 0;  ///< Largest distance of a row of any level from y = 0.

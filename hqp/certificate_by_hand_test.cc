@@ -120,8 +120,8 @@ TEST_F(CertifierByHandTest, FindsAMultiplierAcrossAGap) {
   EXPECT_EQ(certificate.complementarity, 1.5 / kSize);
 }
 
-// An equality of weight 0 has no effect on its level, so it must not hold back a
-// level below: y = 1 is optimal, not 0.
+// An equality of weight 0 has no effect on its level, so it must not hold back
+// a level below: y = 1 is optimal, not 0.
 TEST(CertifierWeightTest, FindsAMultiplierOnAnEqualityOfWeightZero) {
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}};
   Hierarchy hierarchy(1, capacity);

@@ -192,8 +192,8 @@ TEST(Certifier, RejectsARowThatIsNotZeroOutsideItsSpan) {
   }
 }
 
-// Above 1.3e154 the square of a row overflows. Its margin would be infinite, and no
-// multiplier on it wrong.
+// Above 1.3e154 the square of a row overflows. Its margin would be infinite,
+// and no multiplier on it wrong.
 TEST(Certifier, CertifiesNoRowWhoseSquareOverflows) {
   const std::vector<LevelCapacity> capacity = {{0, 1}, {1, 0}};
   for (const double size : {1e150, 1e155}) {
@@ -230,8 +230,8 @@ TEST(Certifier, CertifiesNoEqualityWhoseSquareOverflows) {
   }
 }
 
-// A level that is not certified bounds nothing, so that the largest gap is that of the
-// levels above it.
+// A level that is not certified bounds nothing, so that the largest gap is that
+// of the levels above it.
 TEST(Certifier, HasNoGapOfALevelThatFails) {
   const std::vector<LevelCapacity> capacity = {{1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);

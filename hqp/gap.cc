@@ -13,8 +13,9 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Terms of the gap below this part of the cost need no sharper bound, which takes
-// longer: a hundredth of the gap of 1e-6 that a robot needs in every tick.
+// Terms of the gap below this part of the cost need no sharper bound, which
+// takes longer: a hundredth of the gap of 1e-6 that a robot needs in every
+// tick.
 constexpr double kSharpEnough = 1e-8;
 
 long double PreciseProduct(const double* row, Span span,
@@ -26,16 +27,16 @@ long double PreciseProduct(const double* row, Span span,
   return sum;
 }
 
-// Rounding of a sum of n terms in long double: one for each addition, one for each
-// product, and some for what follows, rounded up to 10.
+// Rounding of a sum of n terms in long double: one for each addition, one for
+// each product, and some for what follows, rounded up to 10.
 double PreciseRounding(Eigen::Index n) {
   return static_cast<double>(std::numeric_limits<long double>::epsilon()) *
          static_cast<double>(n + 10);
 }
 
 // Computes the residuals and slacks of a level in long double, and calls
-// add(row, span, gradient of the cost in row . y). An inequality i with is_inside(i) has
-// no slack. Returns the cost.
+// add(row, span, gradient of the cost in row . y). An inequality i with
+// is_inside(i) has no slack. Returns the cost.
 template <typename IsInside, typename Add>
 long double VisitPreciseSlacks(const Hierarchy& hierarchy, int level,
                                const Eigen::VectorXd& y,
@@ -79,7 +80,8 @@ double Certifier::RelativeGap(int level) const {
 void Certifier::FindGap(const Hierarchy& hierarchy, int level,
                         const Solution& solution) {
   const double radius = 2 * (solution.y.norm() + farthest_);
-  // One rounding for each term of an entry, and those of the residual in a term.
+  // One rounding for each term of an entry, and those of the residual in a
+  // term.
   const auto n = static_cast<int>(gradient_.size());
   const double size = gradient_size_.norm();
   const double rounding = (num_terms_ + n / 4 + 10) * kEpsilon / 2 * size;
@@ -105,8 +107,8 @@ void Certifier::FindGap(const Hierarchy& hierarchy, int level,
   FindChange(level);
 }
 
-// Finds undercut_ and change_ of a level from those of the levels above. Half the
-// squared change is at most the gap and the undercut together.
+// Finds undercut_ and change_ of a level from those of the levels above. Half
+// the squared change is at most the gap and the undercut together.
 void Certifier::FindChange(int level) {
   undercut_[level] = 0;
   for (int above = 0; above < level; ++above) {
@@ -115,8 +117,8 @@ void Certifier::FindChange(int level) {
   change_[level] = std::sqrt(2 * (exact_gap_[level] + undercut_[level]));
 }
 
-// Computes the norm of the gradient of the level's Lagrangian in long double. Large
-// multipliers cancel there.
+// Computes the norm of the gradient of the level's Lagrangian in long double.
+// Large multipliers cancel there.
 double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
                                       const Solution& solution) {
   std::fill(precise_gradient_.begin(), precise_gradient_.end(), 0);
@@ -144,17 +146,17 @@ double Certifier::PreciseGradientNorm(const Hierarchy& hierarchy, int level,
   return static_cast<double>(std::sqrt(squares));
 }
 
-// Returns whether an inequality has no slack in exact arithmetic. The rounding is that of
-// the nearer bound. At the farther one, it is at most twice as large, but for a small part
-// of the distance.
+// Returns whether an inequality has no slack in exact arithmetic. The rounding
+// is that of the nearer bound. At the farther one, it is at most twice as
+// large, but for a small part of the distance.
 bool Certifier::IsInside(int level, int i) const {
   const Inequality& row = inequalities(level)[i];
   return row.violation < -3 * row.rounding;
 }
 
-// Sharpens change_ of the levels up to `level`: computes their costs in long double,
-// and limits exact_gap_ to them. The cost of a level that is met is mostly rounding in
-// double.
+// Sharpens change_ of the levels up to `level`: computes their costs in long
+// double, and limits exact_gap_ to them. The cost of a level that is met is
+// mostly rounding in double.
 void Certifier::SharpenChanges(const Hierarchy& hierarchy, int level,
                                const Solution& solution) {
   for (int k = 0; k <= level; ++k) {
@@ -220,7 +222,8 @@ double Certifier::LargestGain(const Hierarchy& hierarchy, int level, int above,
   return gain + of_slacks;
 }
 
-// Largest mu C_i d of row i of a level `above`, but for the change of its slack.
+// Largest mu C_i d of row i of a level `above`, but for the change of its
+// slack.
 double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
                              int i, double mu, double radius, double norm_y,
                              const Solution& solution) const {
@@ -248,8 +251,8 @@ double Certifier::FreeChange(const Hierarchy& hierarchy, int level, int above,
          std::min(std::max(distance, 0.0) + rounding, rows[i].norm * radius);
 }
 
-// Finds sums_ along p of the equalities of a level, and then of its inequalities. Without
-// p, they are zero.
+// Finds sums_ along p of the equalities of a level, and then of its
+// inequalities. Without p, they are zero.
 void Certifier::FindSums(const Hierarchy& hierarchy, int level,
                          const Eigen::VectorXd* p) {
   const int n = hierarchy.num_variables();
@@ -265,11 +268,11 @@ void Certifier::FindSums(const Hierarchy& hierarchy, int level,
           p->data(), sums_.data() + equalities);
 }
 
-// Calls use(m, s, change, rounding, distance) for the rows of level `above`: the
-// multiplier m that `level` puts on the row, divided by the root of the row's weight; its
-// residual or slack s and the change of s along p, with the rounding of the latter, times
-// the root; and the distance of an inactive row from its bounds, else 0.
-// pre: FindSums().
+// Calls use(m, s, change, rounding, distance) for the rows of level `above`:
+// the multiplier m that `level` puts on the row, divided by the root of the
+// row's weight; its residual or slack s and the change of s along p, with the
+// rounding of the latter, times the root; and the distance of an inactive row
+// from its bounds, else 0. pre: FindSums().
 template <typename Use>
 void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
                              const Solution& solution, const Use& use) const {
@@ -296,9 +299,9 @@ void Certifier::ForEachSlack(const Hierarchy& hierarchy, int level, int above,
   }
 }
 
-// Largest sum of m_i times the change of s_i, the residuals and slacks of a level
-// above, with m = J p + f s + rest, see ForEachSlack(). Without p, J p is zero. Infinite
-// if the levels above do not allow a step along p.
+// Largest sum of m_i times the change of s_i, the residuals and slacks of a
+// level above, with m = J p + f s + rest, see ForEachSlack(). Without p, J p is
+// zero. Infinite if the levels above do not allow a step along p.
 double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
                                const Eigen::VectorXd* p,
                                const Solution& solution) {
@@ -329,8 +332,8 @@ double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
                      rest_squares += rest * rest;
                    }
                  });
-    // The slope is counted twice: once for the cost, and once for what y - t p misses
-    // above, because its rows change along p by rounding.
+    // The slope is counted twice: once for the cost, and once for what y - t p
+    // misses above, because its rows change along p by rounding.
     const double of_p = p == nullptr ? 0 : (gap + undercut) / step + 2 * slope;
     const double of_s = f > 0 ? f * undercut : -f * (2 * gap + undercut);
     const double rounding = std::abs(f) * slack_rounding_[above];
@@ -341,9 +344,9 @@ double Certifier::GainOfSlacks(const Hierarchy& hierarchy, int level, int above,
   return squares > 0 ? std::min(without_s, gain(along / squares)) : without_s;
 }
 
-// Returns the largest t for which y - t p keeps the levels above `level` as they are,
-// or 0 if no step does. Sets `slope` to an upper bound of |g . p|, where g is the
-// gradient of the cost of `level`.
+// Returns the largest t for which y - t p keeps the levels above `level` as
+// they are, or 0 if no step does. Sets `slope` to an upper bound of |g . p|,
+// where g is the gradient of the cost of `level`.
 double Certifier::LargestStep(const Hierarchy& hierarchy, int level,
                               const Eigen::VectorXd& p,
                               const Solution& solution, double* slope) const {

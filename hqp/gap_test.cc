@@ -14,8 +14,8 @@
 namespace poise {
 namespace {
 
-// Level 0 has the targets y_0 = 0 and y_0 = 2, so that its optimum is y_0 = 1. Level 1 has
-// the target y_0 = `target`. The answer is y_0 = 1 + off.
+// Level 0 has the targets y_0 = 0 and y_0 = 2, so that its optimum is y_0 = 1.
+// Level 1 has the target y_0 = `target`. The answer is y_0 = 1 + off.
 class TwoTargets {
  public:
   TwoTargets(double off, double target) : off_(off) {
@@ -31,7 +31,8 @@ class TwoTargets {
     EvaluateLevel(hierarchy_, 1, &solution_);
   }
 
-  // Sets the multipliers of level 1, and the trade-off p = (trade_off) if it is not 0.
+  // Sets the multipliers of level 1, and the trade-off p = (trade_off) if it is
+  // not 0.
   void SetMultipliers(double first, double second, double trade_off) {
     solution_.levels[1].multipliers[0].equality << first, second;
     solution_.levels[1].traded_level = trade_off == 0 ? -1 : 0;
@@ -54,11 +55,12 @@ class TwoTargets {
   Certifier certifier_{1, capacity_};
 };
 
-// Rounding of these small numbers: about 10 eps of terms up to 50, times a radius of
-// less than 50.
+// Rounding of these small numbers: about 10 eps of terms up to 50, times a
+// radius of less than 50.
 constexpr double kRounding = 5e-12;
 
-// The multipliers of level 1, half of its gradient each, are along p = target - y_0.
+// The multipliers of level 1, half of its gradient each, are along p = target -
+// y_0.
 TEST(GapByHand, IsLinearInTheErrorOfALevelAbove) {
   for (const double off : {-1e-3, -1e-6, -1e-9}) {
     SCOPED_TRACE(off);
@@ -79,9 +81,9 @@ TEST(GapByHand, IsLinearInTheErrorOfALevelAbove) {
   }
 }
 
-// Multipliers along the residuals, f (1 + off, off - 1), have the sum 2 f off, which
-// is the gradient of level 1. If f is positive, level 1 costs less at y than at
-// its optimum, where level 0 costs less.
+// Multipliers along the residuals, f (1 + off, off - 1), have the sum 2 f off,
+// which is the gradient of level 1. If f is positive, level 1 costs less at y
+// than at its optimum, where level 0 costs less.
 TEST(GapByHand, IsSmallForPositiveMultiplesOfTheResiduals) {
   for (const double off : {1e-3, -1e-4}) {
     for (const double f : {10., -10.}) {
@@ -100,10 +102,10 @@ TEST(GapByHand, IsSmallForPositiveMultiplesOfTheResiduals) {
   }
 }
 
-// Level 0 has the bounds y_0 <= 0 and y_0 >= 2, so that its optimum is y_0 = 1 with a
-// slack of 1 at both. Level 1 has the target y_0 = 3. The answer is y_0 = 1 + off: level 0
-// costs off^2 too much, and level 1 off^2 / 2 - 2 off, since its multipliers act on the
-// slacks.
+// Level 0 has the bounds y_0 <= 0 and y_0 >= 2, so that its optimum is y_0 = 1
+// with a slack of 1 at both. Level 1 has the target y_0 = 3. The answer is
+// y_0 = 1 + off: level 0 costs off^2 too much, and level 1 off^2 / 2 - 2 off,
+// since its multipliers act on the slacks.
 TEST(GapByHand, CoversTheSlacksOfBoundsThatContradictEachOther) {
   for (const double off : {-1e-2, -1e-4, -1e-6}) {
     SCOPED_TRACE(off);
@@ -129,15 +131,16 @@ TEST(GapByHand, CoversTheSlacksOfBoundsThatContradictEachOther) {
   }
 }
 
-// Level 1 minimises |B d + r|^2 / 2 with B = (1, 600; 0, 800) and d = y - (8, 0). At
-// d = 0 its gradient B' r is (1, 0). With y_1 <= 1 / 2048, the optimum is y_1 = 1 / 2048
-// and d_0 = -1 - 600 y_1 = -1.293, where the multiplier of the bound is 600 - 640000 y_1
-// = 287.5. So level 2, with multipliers B p for p = (0, -1), costs 287.5 - 16 / 2 |d|^2
-// less there: much more than the gradient along p, which is 0.
+// Level 1 minimises |B d + r|^2 / 2 with B = (1, 600; 0, 800) and d = y - (8,
+// 0). At d = 0 its gradient B' r is (1, 0). With y_1 <= 1 / 2048, the optimum
+// is y_1 = 1 / 2048 and d_0 = -1 - 600 y_1 = -1.293, where the multiplier of
+// the bound is 600 - 640000 y_1 = 287.5. So level 2, with multipliers B p for
+// p = (0, -1), costs 287.5 - 16 / 2 |d|^2 less there: much more than the
+// gradient along p, which is 0.
 class BoundedTrade {
  public:
-  // The bound is a row of level `bound_level`, 0 or 1. If it `is_fixed`, level 0 has the
-  // target y_1 = 0 instead.
+  // The bound is a row of level `bound_level`, 0 or 1. If it `is_fixed`, level
+  // 0 has the target y_1 = 0 instead.
   explicit BoundedTrade(int bound_level, bool is_fixed = false) {
     hierarchy_.Clear(3);
     if (is_fixed) hierarchy_.AddEqualities(0, 1).SetSingle(0, 1, 1);
@@ -181,17 +184,19 @@ TEST(GapByHand, CoversATradeThatABoundLimits) {
   EXPECT_GE(BoundedTrade(1).gap(), excess);
 }
 
-// With y_1 = 0, the optimum is d_0 = -1, where the multiplier of this row is 600. At y
-// it is zero, so that only the change of the row along p shows that p is of no use.
+// With y_1 = 0, the optimum is d_0 = -1, where the multiplier of this row
+// is 600. At y it is zero, so that only the change of the row along p shows
+// that p is of no use.
 TEST(GapByHand, CoversATradeAgainstARowAbove) {
   EXPECT_GE(BoundedTrade(0, true).gap(), 600 - 8);
 }
 
-// Level 0 has the target y_1 = 0 and the bound y_0 <= 8 + 1e-5. Level 1 minimises
-// |B y + b|^2 / 2 with B as above. y_1 = 1e-6 misses level 0, and y_0 = 8 is best for it.
-// At the optimum, y_1 = 0 has its best y_0 600e-6 higher, of which the bound
-// allows 10e-6. Level 2 has the gradient (1, 600), and costs 590e-6 less there.
-// The numbers 1e-6 and 1e-5 are no tolerances but data, far larger than rounding.
+// Level 0 has the target y_1 = 0 and the bound y_0 <= 8 + 1e-5. Level 1
+// minimises |B y + b|^2 / 2 with B as above. y_1 = 1e-6 misses level 0, and
+// y_0 = 8 is best for it. At the optimum, y_1 = 0 has its best y_0 600e-6
+// higher, of which the bound allows 10e-6. Level 2 has the gradient (1, 600),
+// and costs 590e-6 less there. The numbers 1e-6 and 1e-5 are no tolerances but
+// data, far larger than rounding.
 TEST(GapByHand, CoversATradeAtAYThatMissesALevelAbove) {
   const double off = 1e-6, distance = 10 * off, weight = 16;
   const std::vector<LevelCapacity> capacity{{1, 1}, {2, 0}, {2, 0}};
@@ -225,10 +230,10 @@ TEST(GapByHand, CoversATradeAtAYThatMissesALevelAbove) {
             -d[0] - 600 * d[1] - weight / 2 * (d[0] * d[0] + d[1] * d[1]));
 }
 
-// Level 0 has the target y_0 = 0, level 1 y_0 = 1. y_0 = off misses level 0, so that level 1
-// costs less than its optimum. Level 2 has the target off + 1000 (off - 1), and its
-// multiplier on level 1 is 1000 times the residual there. With y_0 = 0, level 2 costs
-// 1000 off less.
+// Level 0 has the target y_0 = 0, level 1 y_0 = 1. y_0 = off misses level 0, so
+// that level 1 costs less than its optimum. Level 2 has the target off + 1000
+// (off - 1), and its multiplier on level 1 is 1000 times the residual there.
+// With y_0 = 0, level 2 costs 1000 off less.
 TEST(GapByHand, CoversALevelAboveThatCostsLessThanItsOptimum) {
   const double off = 1e-6, f = 1000;
   const std::vector<LevelCapacity> capacity{{1, 0}, {1, 0}, {1, 0}};
@@ -253,11 +258,12 @@ TEST(GapByHand, CoversALevelAboveThatCostsLessThanItsOptimum) {
             (std::pow(off - targets[2], 2) - std::pow(targets[2], 2)) / 2);
 }
 
-// Level 0 sets all variables but the last one, x = 0, to 1. Level 1 has the rows -e x <= 0
-// and c y + e x <= u. The sum c y in double loses `lost`, so that the second row is inside
-// its bound by 3/4 of this, while it exceeds its bound by 1/4 in exact arithmetic. At the
-// optimum of level 1, both rows have half of this slack. Level 2 has the target x = -1 and
-// the multiplier 1 / e on the first row.
+// Level 0 sets all variables but the last one, x = 0, to 1. Level 1 has the
+// rows -e x <= 0 and c y + e x <= u. The sum c y in double loses `lost`, so
+// that the second row is inside its bound by 3/4 of this, while it exceeds its
+// bound by 1/4 in exact arithmetic. At the optimum of level 1, both rows have
+// half of this slack. Level 2 has the target x = -1 and the multiplier 1 / e on
+// the first row.
 TEST(GapByHand, CoversASlackThatRoundingHides) {
   const int fixed = 400;
   const double e = 0x1p-24;
@@ -268,8 +274,8 @@ TEST(GapByHand, CoversASlackThatRoundingHides) {
   InequalityBlock bounds = hierarchy.AddInequalities(1, 2);
   for (int j = 0; j < fixed; ++j) fix.SetSingle(j, j, 1);
   fix.b.setConstant(-1);
-  // Each of the four sums of RowSums begins with 1.001 or -1.001, and all further terms
-  // are less than half of its last digit.
+  // Each of the four sums of RowSums begins with 1.001 or -1.001, and all
+  // further terms are less than half of its last digit.
   const double small = 0.499 * std::numeric_limits<double>::epsilon();
   const double lost = (fixed - 4) * small;
   bounds.C.row(1).setConstant(small);
@@ -296,8 +302,9 @@ TEST(GapByHand, CoversASlackThatRoundingHides) {
   EXPECT_GE(certifier.gap(2), move - move * move / 2);
 }
 
-// Multipliers of 1e12 cancel. In double, the rounding of their sum would be 6 eps times
-// 2e12 and a radius of 8, 0.02, and that of the level above, which is met, 0.004.
+// Multipliers of 1e12 cancel. In double, the rounding of their sum would be 6
+// eps times 2e12 and a radius of 8, 0.02, and that of the level above, which is
+// met, 0.004.
 TEST(GapByHand, IsSharpForLargeMultipliersThatCancel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -314,8 +321,8 @@ TEST(GapByHand, IsSharpForLargeMultipliersThatCancel) {
   solution.levels[1].multipliers[0].equality << 1e12 + 2, -1e12;
   Certifier certifier(1, capacity);
   (void)certifier.Certify(hierarchy, solution);
-  // With the eps of long double, 1.1e-19 on most machines, the former is 14 eps times
-  // 2e12 times 8, 2.4e-5, and the latter 5e-6.
+  // With the eps of long double, 1.1e-19 on most machines, the former is 14 eps
+  // times 2e12 times 8, 2.4e-5, and the latter 5e-6.
   EXPECT_LE(certifier.gap(1),
             4e-5 * std::numeric_limits<long double>::epsilon() / 1.1e-19L);
   // With a level above that is off, level 1 costs 2e-9 more than its optimum.
@@ -326,9 +333,9 @@ TEST(GapByHand, IsSharpForLargeMultipliersThatCancel) {
   EXPECT_GE(certifier.gap(1), 2e-9);
 }
 
-// Level 0 bounds y by (a, e) y <= u_1 and (-a, e) y <= u_2, both met to rounding of a.
-// Level 1 has the target y_1 + 1, which these bounds, with multipliers 1 / (2 e), allow
-// to be met better by the rounding divided by e.
+// Level 0 bounds y by (a, e) y <= u_1 and (-a, e) y <= u_2, both met to
+// rounding of a. Level 1 has the target y_1 + 1, which these bounds, with
+// multipliers 1 / (2 e), allow to be met better by the rounding divided by e.
 TEST(GapByHand, CoversTheRoundingOfBoundsWithLargeMultipliers) {
   const double e = 0x1p-33, a = 0.5807597826234586;
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}};

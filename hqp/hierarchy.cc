@@ -21,7 +21,8 @@ LevelCapacity Sum(const std::vector<LevelCapacity>& capacity) {
   return sum;
 }
 
-// Returns whether four entries are zero, of either sign: the first bit is the sign.
+// Returns whether four entries are zero, of either sign: the first bit is the
+// sign.
 bool AreFourZeros(const double* x) {
   std::uint64_t bits[4];
   std::memcpy(bits, x, sizeof(bits));

@@ -64,8 +64,9 @@ struct InequalityBlock {
 /// clears the hierarchy and adds the blocks again.
 class Hierarchy {
  public:
-  /// Allocates memory for all levels at their capacity. Throws std::invalid_argument if
-  /// a number is negative, as does the next constructor.
+  /// Allocates memory for all levels at their capacity. Throws
+  /// std::invalid_argument if a number is negative, as does the next
+  /// constructor.
   Hierarchy(int num_variables, const std::vector<LevelCapacity>& capacity);
 
   /// Allocates memory for `total` rows, which the levels share. If that is less
@@ -82,8 +83,8 @@ class Hierarchy {
   /// of these rows (asserted).
   void Clear(int num_levels) noexcept;
 
-  /// Removes all rows as well, and level k may get at most rows[k], k < num_levels.
-  /// pre: there is memory for all of these rows (asserted).
+  /// Removes all rows as well, and level k may get at most rows[k], k <
+  /// num_levels. pre: there is memory for all of these rows (asserted).
   void Clear(int num_levels, const LevelCapacity* rows) noexcept;
 
   /// Returns the next rows of a level: B, b and C zero, weights 1, bounds
@@ -96,8 +97,8 @@ class Hierarchy {
   /// columns, so that the solver and the certificate skip the zeros before and
   /// after. Without this call, only rows written by SetSingle() have a shorter
   /// span. Write no row after the call, until Clear().
-  /// pre: a row with a shorter span is zero outside it (asserted). If it is not,
-  /// no answer is certified.
+  /// pre: a row with a shorter span is zero outside it (asserted). If it is
+  /// not, no answer is certified.
   void FindSpans() noexcept;
 
   int num_equalities(int level) const { return levels_[level].equalities; }

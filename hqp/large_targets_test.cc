@@ -25,8 +25,8 @@ Hierarchy WithTargets(const HierarchyCase& drawn, double factor) {
   return to;
 }
 
-// The multipliers are those of the search, before y was refined. They must suffice for the
-// certificate where targets are large as well.
+// The multipliers are those of the search, before y was refined. They must
+// suffice for the certificate where targets are large as well.
 TEST(LargeTargets, AreCertified) {
   RandomHierarchyOptions options;
   options.degenerate = 0;  // Where rows depend on each other, rounding decides.

@@ -108,7 +108,8 @@ int AddRowsWithSizes(const double* rows, int stride, const Span* spans,
 POISE_TARGET_CLONES("avx2")
 bool AreZeroOutside(const double* rows, int stride, const Span* spans,
                     int count) {
-  // The entries after a row's span and before that of the next row are neighbours.
+  // The entries after a row's span and before that of the next row are
+  // neighbours.
   FourWords bits = {};
   const double* begin = rows;
   for (int i = 0; i < count; ++i) {

@@ -12,10 +12,11 @@ struct RowSums {
   double squared_row_norm;  ///< |row|^2.
 };
 
-/// Largest rounding of RowSums and one more addition, relative to the magnitudes of
-/// the terms, for a span of n columns: one for the product, n / 4 - 1 for the sum of one
-/// of four lanes, two for the sum of the lanes, three for the columns after the last
-/// whole four, one for the addition, and two for higher orders.
+/// Largest rounding of RowSums and one more addition, relative to the
+/// magnitudes of the terms, for a span of n columns: one for the product, n /
+/// 4 - 1 for the sum of one of four lanes, two for the sum of the lanes, three
+/// for the columns after the last whole four, one for the addition, and two for
+/// higher orders.
 double RowSumRounding(int n);
 
 /// Returns the sums of a row. The row and y start at column 0.
@@ -25,8 +26,9 @@ RowSums SumRow(const double* row, Span span, const double* y);
 void SumRows(const double* rows, int stride, const Span* spans, int count,
              const double* y, RowSums* sums);
 
-/// Adds factor_i times row i to `sum`, and |size_i| times the absolute entries of the
-/// row to `sum_of_sizes`, for all rows i with size_i != 0. Returns their number.
+/// Adds factor_i times row i to `sum`, and |size_i| times the absolute entries
+/// of the row to `sum_of_sizes`, for all rows i with size_i != 0. Returns their
+/// number.
 int AddRowsWithSizes(const double* rows, int stride, const Span* spans,
                      int count, const double* factor, const double* size,
                      double* sum, double* sum_of_sizes);

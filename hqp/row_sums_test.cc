@@ -22,7 +22,8 @@ struct Rows {
   const double* row(int i) const { return entries.data() + i * kStride; }
 };
 
-// Returns multiples of 1/8 with few digits, so that every sum is exact in any order.
+// Returns multiples of 1/8 with few digits, so that every sum is exact in any
+// order.
 double Eighth(std::mt19937* random) {
   return std::uniform_int_distribution<int>(-40, 40)(*random) / 8.0;
 }
@@ -104,14 +105,17 @@ TEST(RowSums, RoundAsMuchAsStatedAtMost) {
   }
 }
 
-// Terms that nearly all sums round down. Each of the four lanes begins with a term near
-// `sign`, which is 1 for lanes 0 and 2. All other terms are positive and just below half
-// of the last digit of the sum to which they are added, so that the sum loses them.
+// Terms that nearly all sums round down. Each of the four lanes begins with a
+// term near `sign`, which is 1 for lanes 0 and 2. All other terms are positive
+// and just below half of the last digit of the sum to which they are added, so
+// that the sum loses them.
 struct LosingTerms {
   LosingTerms(int n, double sign) : row(n, 0.499 * kEps), y(n, 1) {
-    // This product is 1 + 2^-26 + 2^-27 - 2^-40 and nearly half of a digit more.
+    // This product is 1 + 2^-26 + 2^-27 - 2^-40 and nearly half of a digit
+    // more.
     const double r = 1 + 0x1p-26 - 0x1p-40, at = 1 + 0x1p-27;
-    // The sum of lanes 0 and 2 ends in half of a digit, and so does that of all four.
+    // The sum of lanes 0 and 2 ends in half of a digit, and so does that of all
+    // four.
     const int digits[] = {0, 0, 1, 2};
     for (int lane = 0; lane < 4; ++lane) {
       row[lane] = r + digits[lane] * kEps;
@@ -125,9 +129,9 @@ struct LosingTerms {
   std::vector<double> row, y;
 };
 
-// With 7 columns and one more addition, RowSumRounding() counts 9 roundings of all terms.
-// These terms have 6.5: products 1, sums of lanes 1.5, later columns 3, addition 1. With
-// more columns, the part is larger.
+// With 7 columns and one more addition, RowSumRounding() counts 9 roundings of
+// all terms. These terms have 6.5: products 1, sums of lanes 1.5, later columns
+// 3, addition 1. With more columns, the part is larger.
 TEST(RowSums, RoundNearlyAsMuchAsStated) {
   for (const int n : {7, 43, 403}) {
     SCOPED_TRACE(n);
@@ -143,8 +147,8 @@ TEST(RowSums, RoundNearlyAsMuchAsStated) {
   }
 }
 
-// Lanes 0 and 2 cancel lanes 1 and 3, so that the product is wrong by its whole value. The
-// rounding is that of the lanes, 99 of the stated 108.
+// Lanes 0 and 2 cancel lanes 1 and 3, so that the product is wrong by its whole
+// value. The rounding is that of the lanes, 99 of the stated 108.
 TEST(RowSums, RoundNearlyAsMuchAsStatedIfTheyCancel) {
   const int n = 400;
   const LosingTerms terms(n, -1);

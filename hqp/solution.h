@@ -13,8 +13,9 @@ enum class Status {
   kOptimal,
   /// No certified optimum: the levels above failed_level are optimal.
   kIterationLimit,
-  /// NaN or infinity in the rows, see CheckInput(); y is zero. Solver and Cascade also
-  /// refuse numbers with which their answer overflows; failed_level is then 0.
+  /// NaN or infinity in the rows, see CheckInput(); y is zero. Solver and
+  /// Cascade also refuse numbers with which their answer overflows;
+  /// failed_level is then 0.
   kNotFinite,
   /// lower > upper, a negative weight, or too many rows; y is zero.
   kBadInput,
@@ -33,20 +34,23 @@ struct LevelMultipliers {
 /// The answer for one level.
 struct LevelSolution {
   double cost;  ///< 1/2 (sum weight r^2 + |slack|^2).
-  /// Bound of Certifier::gap(). Each solver stores it with the certificate. It is infinite
-  /// below failed_level, and on all levels if the hierarchy is invalid.
+  /// Bound of Certifier::gap(). Each solver stores it with the certificate. It
+  /// is infinite below failed_level, and on all levels if the hierarchy is
+  /// invalid.
   double gap;
   Eigen::VectorXd equality_residual;  ///< B y + b.
   Eigen::VectorXd slack;              ///< max(lower - C y, C y - upper, 0).
   std::vector<Side> active;           ///< By inequality row.
-  /// Number of variables minus the rank of the equalities of positive weight and the
-  /// violated rows of this level and the levels above; -1 if the solver did not look for it.
+  /// Number of variables minus the rank of the equalities of positive weight
+  /// and the violated rows of this level and the levels above; -1 if the solver
+  /// did not look for it.
   int nullity;
   std::vector<LevelMultipliers> multipliers;  ///< By level above this one.
-  /// The direction p in which this level would move y if `traded_level`, above it, were
-  /// relaxed. On the rows of that level, W B p = lambda, and C p = mu for rows with a
-  /// slack, up to a multiple of the residuals and slacks. On active rows above that
-  /// level, B p = 0 and C p = 0. p sharpens Certifier::gap().
+  /// The direction p in which this level would move y if `traded_level`, above
+  /// it, were relaxed. On the rows of that level, W B p = lambda, and C p = mu
+  /// for rows with a slack, up to a multiple of the residuals and slacks. On
+  /// active rows above that level, B p = 0 and C p = 0. p sharpens
+  /// Certifier::gap().
   Eigen::VectorXd trade_off;
   int traded_level;  ///< -1: there is no trade_off.
 };
@@ -79,8 +83,8 @@ struct Certificate {
   /// |y| + |bound| in place of each entry of v.
   double priority = 0;
 
-  /// Largest Certifier::gap() of the certified levels, relative to c_k + 1e-9 s_k.
-  /// It is a bound, not an error, and is not part of worst().
+  /// Largest Certifier::gap() of the certified levels, relative to c_k + 1e-9
+  /// s_k. It is a bound, not an error, and is not part of worst().
   double relative_gap = 0;
 
   /// The largest of the first four.
@@ -103,9 +107,9 @@ struct Solution {
   void Reset(const Hierarchy& hierarchy) noexcept;
 
   Status status;
-  /// First level without an optimum, or with invalid numbers; -1 if optimal. If only the
-  /// minimum norm is missing, this is the last level (Solver) or the number of levels
-  /// (Cascade).
+  /// First level without an optimum, or with invalid numbers; -1 if optimal. If
+  /// only the minimum norm is missing, this is the last level (Solver) or the
+  /// number of levels (Cascade).
   int failed_level;
   int iterations;     ///< Factorisations and updates of the search.
   Eigen::VectorXd y;  ///< num_variables; if optimal, the shortest optimum.
@@ -121,11 +125,11 @@ void EvaluateLevel(const Hierarchy& hierarchy, int level,
                    Solution* solution) noexcept;
 
 /// Checks the numbers of the hierarchy. Returns kNotFinite if a number is NaN
-/// or infinite; but a lower bound may be -inf, and an upper bound +inf. It also returns
-/// kNotFinite if the square of a row's sum of absolute entries overflows, which is the case
-/// above 1.3e154, or that square times the row's weight. Returns
-/// kBadInput if lower > upper or a weight is negative, else kOptimal. Sets
-/// *failed_level to the first level with an error, or to -1.
+/// or infinite; but a lower bound may be -inf, and an upper bound +inf. It also
+/// returns kNotFinite if the square of a row's sum of absolute entries
+/// overflows, which is the case above 1.3e154, or that square times the row's
+/// weight. Returns kBadInput if lower > upper or a weight is negative, else
+/// kOptimal. Sets *failed_level to the first level with an error, or to -1.
 Status CheckInput(const Hierarchy& hierarchy, int* failed_level) noexcept;
 
 }  // namespace poise

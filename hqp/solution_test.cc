@@ -186,7 +186,8 @@ TEST_F(CheckInputTest, ReportsTheFirstLevelWithAnError) {
   EXPECT_EQ(failed_level_, 0);
 }
 
-// A cost is the square of a row. Where that overflows, nothing can be certified.
+// A cost is the square of a row. Where that overflows, nothing can be
+// certified.
 TEST(CheckInput, AcceptsNumbersWhoseSquaresAreFinite) {
   for (const bool is_equality : {true, false}) {
     for (const double entry : {1e153, 1e154, 1e308}) {

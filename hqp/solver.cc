@@ -22,15 +22,15 @@ namespace {
 constexpr int kMaxRefinementPasses = 5;
 
 // A search on all levels at once that takes half of the budget is likely to
-// cycle by rounding, and the rest is for a search level by level. But with fewer
-// iterations than this, the second search would not end either. Of 27800 recorded
-// ticks, only some with 5 % of the torque take more.
+// cycle by rounding, and the rest is for a search level by level. But with
+// fewer iterations than this, the second search would not end either. Of 27800
+// recorded ticks, only some with 5 % of the torque take more.
 constexpr int kMinIterationsAtOnce = 250;
 
-// After this number of solves in a row that the budget ended, a search starts from
-// an empty working set: the optimum may be easy to find from there, but far from
-// the last y. Paths of robots that stay up take up to 13 solves of 300 us; with 8,
-// such starts interrupt them (docs/notebook/2026-11-27-paths.md).
+// After this number of solves in a row that the budget ended, a search starts
+// from an empty working set: the optimum may be easy to find from there, but
+// far from the last y. Paths of robots that stay up take up to 13 solves of 300
+// us; with 8, such starts interrupt them (docs/notebook/2026-11-27-paths.md).
 constexpr int kMaxCutOff = 24;
 
 }  // namespace
@@ -119,7 +119,8 @@ Status Solver::Impl::Solve(const Hierarchy& hierarchy, bool finds_nullity,
   if (budget->is_spent()) {
     const bool goes_back =
         starts_over && IsBetter(hierarchy, best_y_, search_.y());
-    // To factor the rows of this y again would take longer than the limit allows.
+    // To factor the rows of this y again would take longer than the limit
+    // allows.
     if (goes_back) RecallSearch();
     if (budget->iterations() == 0) {
       problem_.Plan(hierarchy, hierarchy.num_levels());
@@ -160,8 +161,8 @@ void Solver::Impl::Refuse(const Hierarchy& hierarchy, Status status,
   solution->certificate = certifier_.Certify(hierarchy, *solution);
 }
 
-// Remembers the last search and forgets it. The rows have changed since, so that
-// its y is first moved to the levels that every search meets.
+// Remembers the last search and forgets it. The rows have changed since, so
+// that its y is first moved to the levels that every search meets.
 void Solver::Impl::StartOver(const Hierarchy& hierarchy) {
   RememberSearch();
   problem_.Plan(hierarchy, hierarchy.num_levels());
@@ -187,8 +188,8 @@ void Solver::Impl::RecallSearch() {
 bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
                                 Budget* budget) {
   for (int pass = 0;; ++pass) {
-    // Refinement has found rows violated in their last digits. A path from the last
-    // optimum would follow this rounding.
+    // Refinement has found rows violated in their last digits. A path from the
+    // last optimum would follow this rounding.
     if (pass > 0) search_.ForgetPath();
     if (!search_.AllAtOnce(hierarchy, limit, budget, &problem_, &side_)) {
       return false;
@@ -196,8 +197,8 @@ bool Solver::Impl::SearchAtOnce(const Hierarchy& hierarchy, int limit,
     problem_.Refine(hierarchy);
     if (pass == kMaxRefinementPasses || !AddViolated(hierarchy, true)) break;
   }
-  // The search has found the multipliers. Refined, they are certified also where targets are
-  // large (large_targets_test.cc).
+  // The search has found the multipliers. Refined, they are certified also
+  // where targets are large (large_targets_test.cc).
   problem_.RefineMultipliers(hierarchy);
   return true;
 }
@@ -236,9 +237,9 @@ void Solver::Impl::SearchByLevel(const Hierarchy& hierarchy, Budget* budget,
 }
 
 // Writes the y at which the budget of the search on all levels was spent. The
-// multipliers are those of the rows that were factored last, which may differ from
-// the working set by the last change, or altogether if the search has started over in vain.
-// Levels that were not solved have none.
+// multipliers are those of the rows that were factored last, which may differ
+// from the working set by the last change, or altogether if the search has
+// started over in vain. Levels that were not solved have none.
 void Solver::Impl::KeepSearch(const Hierarchy& hierarchy, Solution* solution) {
   problem_.LeaveOutUnsolved();
   problem_.SetSolution(hierarchy, search_.y());

@@ -58,8 +58,8 @@ TEST(SolverBudget, TakesNoMoreIterationsThanItsLimit) {
   }
 }
 
-// Returns the first level that costs more at an answer than at another one, or -1 if a
-// level above costs less, or if no level costs more.
+// Returns the first level that costs more at an answer than at another one, or
+// -1 if a level above costs less, or if no level costs more.
 int FirstWorseLevel(const Hierarchy& hierarchy, const Solution& solution,
                     const Solution& than) {
   for (int k = 0; k < hierarchy.num_levels(); ++k) {
@@ -68,16 +68,16 @@ int FirstWorseLevel(const Hierarchy& hierarchy, const Solution& solution,
                       hierarchy.num_inequalities(k);
     const double size =
         CostSize(hierarchy, k, solution) + CostSize(hierarchy, k, than);
-    // Answers are right to about the condition number of their rows, 1e3, times the
-    // rounding of their sums.
+    // Answers are right to about the condition number of their rows, 1e3, times
+    // the rounding of their sums.
     if (std::abs(change) > Rounding(size, terms, 1e3))
       return change > 0 ? k : -1;
   }
   return -1;
 }
 
-// Numbers of iterations, and times [s]. The times allow few iterations beside the
-// modelled time of a solve.
+// Numbers of iterations, and times [s]. The times allow few iterations beside
+// the modelled time of a solve.
 constexpr double kBudgets[] = {2, 3, 5, 8, 36e-6, 50e-6};
 
 void SetLimit(double limit, Solver* solver) {
@@ -86,8 +86,9 @@ void SetLimit(double limit, Solver* solver) {
   solver->max_modelled_seconds = is_time ? limit : 0;
 }
 
-// Solves one hierarchy again and again. Expects that no answer is worse than the one
-// before, and that the optimum is found. Returns the number of solves that were stopped.
+// Solves one hierarchy again and again. Expects that no answer is worse than
+// the one before, and that the optimum is found. Returns the number of solves
+// that were stopped.
 int SolveInSteps(const Hierarchy& hierarchy, const Solution& optimum,
                  int max_solves, Solver* solver) {
   int stopped = 0;
@@ -151,8 +152,8 @@ Neighbors DrawNeighbors(int seed) {
   return {std::move(drawn), std::move(changed)};
 }
 
-// As above, after the rows have changed, so that the search follows a path from the
-// last optimum.
+// As above, after the rows have changed, so that the search follows a path from
+// the last optimum.
 TEST(SolverBudget, GoesOnAlongAPath) {
   int stopped = 0;
   for (int seed = 0; seed < 200; ++seed) {
@@ -168,8 +169,8 @@ TEST(SolverBudget, GoesOnAlongAPath) {
       SetLimit(500, &solver);
       ASSERT_EQ(solver.Solve(drawn.hierarchy, &now), Status::kOptimal);
       SetLimit(limit, &solver);
-      // Each solve advances by a row at least. No row is removed more than ten times
-      // in a solve.
+      // Each solve advances by a row at least. No row is removed more than ten
+      // times in a solve.
       stopped += SolveInSteps(changed.hierarchy, optimum, 100, &solver);
     }
   }
@@ -181,8 +182,8 @@ struct Stopped {
   int worse = 0;  // Answers that are worse than with one iteration less.
 };
 
-// Solves `changed` from the optimum of `drawn`, with limits of 0, 1, 2, ... iterations
-// until none is needed.
+// Solves `changed` from the optimum of `drawn`, with limits of 0, 1, 2, ...
+// iterations until none is needed.
 Stopped SolveWithLargerLimits(const HierarchyCase& drawn,
                               const Hierarchy& changed) {
   constexpr int kMost = 100;
@@ -207,9 +208,10 @@ Stopped SolveWithLargerLimits(const HierarchyCase& drawn,
   return stopped;
 }
 
-// The cost of a level need not fall at each step of a path. So of 20 000 problems, 36
-// have an answer that is worse with one iteration more (docs/limits.md); of 200, five or
-// more have one with a probability below 1e-4.
+// The cost of a level need not fall at each step of a path. So of 20 000
+// problems, 36 have an answer that is worse with one iteration more
+// (docs/limits.md); of 200, five or more have one with a probability below
+// 1e-4.
 TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
   int stopped = 0, worse = 0;
   for (int seed = 0; seed < 200; ++seed) {
@@ -223,8 +225,8 @@ TEST(SolverBudget, IsNoWorseWithOneIterationMore) {
   EXPECT_LT(worse, 5);
 }
 
-// The optimum of the working set meets the levels before the last one, but violates more
-// bounds of the last one than the answer of the last solve.
+// The optimum of the working set meets the levels before the last one, but
+// violates more bounds of the last one than the answer of the last solve.
 TEST(SolverBudget, NeverGetsWorseWhileItMeetsTheLevelsBeforeTheLast) {
   const std::vector<LevelCapacity> capacity = {{0, 0}, {0, 3}};
   Hierarchy hierarchy(1, capacity);
@@ -253,8 +255,9 @@ TEST(SolverBudget, NeverGetsWorseWhileItMeetsTheLevelsBeforeTheLast) {
   EXPECT_EQ(status, Status::kOptimal);
 }
 
-// Returns the same problem with other targets and bounds, as most ticks have: each is
-// shifted by a normally distributed number of 0.1, where the rows have entries near 1.
+// Returns the same problem with other targets and bounds, as most ticks have:
+// each is shifted by a normally distributed number of 0.1, where the rows have
+// entries near 1.
 HierarchyCase WithMovedBounds(const HierarchyCase& drawn, int seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, 0.1);
@@ -275,8 +278,8 @@ HierarchyCase WithMovedBounds(const HierarchyCase& drawn, int seed) {
 }
 
 // Returns the answer of the working set of the last tick, by singular value
-// decompositions: each level is minimised over its equalities and active bounds, among
-// the optima of the levels above, and y has minimum norm.
+// decompositions: each level is minimised over its equalities and active
+// bounds, among the optima of the levels above, and y has minimum norm.
 Solution AnswerOfWorkingSet(const HierarchyCase& now, const Solution& last) {
   const Hierarchy& hierarchy = now.hierarchy;
   const int n = hierarchy.num_variables();
@@ -307,8 +310,8 @@ struct Judged {
   int worse = 0;      // Solves that are worse than the last working set.
 };
 
-// Solves `drawn`, and then `changed` with a limit. Compares the second answer with that of
-// the first one's working set.
+// Solves `drawn`, and then `changed` with a limit. Compares the second answer
+// with that of the first one's working set.
 void JudgeStopped(const HierarchyCase& drawn, const HierarchyCase& changed,
                   double limit, Judged* judged) {
   const int n = drawn.hierarchy.num_variables();
@@ -328,8 +331,8 @@ void JudgeStopped(const HierarchyCase& drawn, const HierarchyCase& changed,
   judged->worse += worse >= 0;
 }
 
-// The levels above failed_level cost no more than at the answer of the last tick's working
-// set, which a stopped solver could have returned.
+// The levels above failed_level cost no more than at the answer of the last
+// tick's working set, which a stopped solver could have returned.
 TEST(SolverBudget, CertifiedLevelsAreNoWorseThanTheLastWorkingSet) {
   Judged judged;
   for (int seed = 0; seed < 200; ++seed) {
@@ -344,9 +347,10 @@ TEST(SolverBudget, CertifiedLevelsAreNoWorseThanTheLastWorkingSet) {
   EXPECT_GT(judged.certified, 100);
 }
 
-// With one iteration, if only targets and bounds move, all levels together are at least as
-// good: this iteration finds the answer of the last working set, and the solver keeps the
-// better one. If the rows change as well, docs/limits.md says how often it fails.
+// With one iteration, if only targets and bounds move, all levels together are
+// at least as good: this iteration finds the answer of the last working set,
+// and the solver keeps the better one. If the rows change as well,
+// docs/limits.md says how often it fails.
 TEST(SolverBudget, IsNoWorseThanTheLastWorkingSet) {
   Judged judged;
   for (int seed = 0; seed < 500; ++seed) {
@@ -358,9 +362,10 @@ TEST(SolverBudget, IsNoWorseThanTheLastWorkingSet) {
   EXPECT_EQ(judged.worse, 0);
 }
 
-// An example: y <= bound on level 0, y = target on level 1. The path moves the bound from 1
-// to 1/2 and the target from 2 to 0. The bound is active until both meet after 2/3 of the
-// path, where y = 2/3 exceeds the bound at the end. The working set has y = 1/2.
+// An example: y <= bound on level 0, y = target on level 1. The path moves the
+// bound from 1 to 1/2 and the target from 2 to 0. The bound is active until
+// both meet after 2/3 of the path, where y = 2/3 exceeds the bound at the end.
+// The working set has y = 1/2.
 TEST(SolverBudget, KeepsABoundThatTheLastWorkingSetMeets) {
   const auto tick = [](double bound, double target) {
     return HierarchyByHand(
@@ -378,9 +383,9 @@ TEST(SolverBudget, KeepsABoundThatTheLastWorkingSetMeets) {
   EXPECT_NEAR(solution.y[0], 0, kTolerance);
 }
 
-// The rows change in each solve, and bounds become infinite or equal, while the budget
-// ends each solve. Afterwards, an ample budget suffices for the optimum, and a solver
-// that forgets is as new.
+// The rows change in each solve, and bounds become infinite or equal, while the
+// budget ends each solve. Afterwards, an ample budget suffices for the optimum,
+// and a solver that forgets is as new.
 TEST(SolverBudget, RecoversFromSolvesThatAreCutOff) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -423,9 +428,9 @@ TEST(SolverBudget, RecoversFromSolvesThatAreCutOff) {
   EXPECT_GT(stopped, 500);
 }
 
-// Level 0 has the bounds -1 <= y_j <= 1, and the targets of level 1 leave them and
-// come back to 0. A path from the last answer removes the 40 bounds one by one, a
-// search from the start needs one iteration.
+// Level 0 has the bounds -1 <= y_j <= 1, and the targets of level 1 leave them
+// and come back to 0. A path from the last answer removes the 40 bounds one by
+// one, a search from the start needs one iteration.
 TEST(SolverBudget, StartsOverIfItIsStoppedAgainAndAgain) {
   constexpr int kVariables = 40;
   const std::vector<LevelCapacity> capacity{{0, kVariables}, {kVariables, 0}};
@@ -467,9 +472,9 @@ class DrawMatrix {
   std::normal_distribution<double> normal_;
 };
 
-// The rows of all levels drift, so that the last y misses the equalities of level
-// 0 a little. A search that starts over and is cut off as well must not give up
-// the limits of level 1, which the last y nearly met.
+// The rows of all levels drift, so that the last y misses the equalities of
+// level 0 a little. A search that starts over and is cut off as well must not
+// give up the limits of level 1, which the last y nearly met.
 TEST(SolverBudget, KeepsTheLimitsIfItStartsOverInVain) {
   constexpr int kVariables = 40, kTicks = 60;
   const std::vector<LevelCapacity> capacity{
@@ -532,8 +537,8 @@ struct LostLimits {
   double modelled_seconds = 0;
 };
 
-// Solves 200 ticks. Level 0 must be met, level 1 has limits, level 2 has a task,
-// whose target jumps in each tick, and level 3 chooses among the optima.
+// Solves 200 ticks. Level 0 must be met, level 1 has limits, level 2 has a
+// task, whose target jumps in each tick, and level 3 chooses among the optima.
 LostLimits CountLostLimits(int max_iterations, double max_modelled_seconds) {
   constexpr int kVariables = 40, kLimits = 80, kTask = 12;
   const std::vector<LevelCapacity> capacity{
@@ -561,8 +566,8 @@ LostLimits CountLostLimits(int max_iterations, double max_modelled_seconds) {
   return lost;
 }
 
-// With a limit of time, limits come before the task. So fewer ticks lose them than
-// if all levels are searched at once, for as long or longer.
+// With a limit of time, limits come before the task. So fewer ticks lose them
+// than if all levels are searched at once, for as long or longer.
 TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
   // Enough for the limits in most ticks, but not for the task.
   const LostLimits limited = CountLostLimits(500, 500e-6);
@@ -576,8 +581,8 @@ TEST(SolverBudget, LosesTheLastLeadingLevelFirst) {
       << limited.modelled_seconds << " s and " << at_once.modelled_seconds;
 }
 
-// Draws ticks whose equalities and targets wander. Level 1 limits y, and level 2, which is
-// searched last, is a task.
+// Draws ticks whose equalities and targets wander. Level 1 limits y, and level
+// 2, which is searched last, is a task.
 class WanderingTicks {
  public:
   static constexpr int kVariables = 20, kTask = 2;
@@ -606,8 +611,8 @@ class WanderingTicks {
   RowMajorMatrix t_ = 3 * draw_(6, 1);
 };
 
-// A path that ends within its share of the time is not preceded by another search: limits that
-// block at its start are added on the path.
+// A path that ends within its share of the time is not preceded by another
+// search: limits that block at its start are added on the path.
 TEST(SolverBudget, TakesNoMoreIterationsIfThePathEndsInTime) {
   WanderingTicks ticks(0.1);
   Solver solver = ticks.MakeSolver(), timed = ticks.MakeSolver();
@@ -629,9 +634,9 @@ TEST(SolverBudget, TakesNoMoreIterationsIfThePathEndsInTime) {
   EXPECT_LT(with, 1.05 * without);
 }
 
-// A path that is cut off leaves time to meet the limits. Each path begins at an optimum. The
-// limit is 0.8 of the time without one, so that the path or what follows it is cut off in a
-// third of the ticks.
+// A path that is cut off leaves time to meet the limits. Each path begins at an
+// optimum. The limit is 0.8 of the time without one, so that the path or what
+// follows it is cut off in a third of the ticks.
 TEST(SolverBudget, LeavesTimeForTheLimitsAfterThePath) {
   WanderingTicks ticks(0.3);
   Solver solver = ticks.MakeSolver(), timed = ticks.MakeSolver();
@@ -653,8 +658,8 @@ TEST(SolverBudget, LeavesTimeForTheLimitsAfterThePath) {
   EXPECT_LT(lost, cut_off / 2);
 }
 
-// A time that is too short for a step of all levels in one solve must not end the
-// search: the last leading level gets a step sooner or later.
+// A time that is too short for a step of all levels in one solve must not end
+// the search: the last leading level gets a step sooner or later.
 TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -678,10 +683,11 @@ TEST(SolverBudget, ReachesTheOptimumWithAnyTime) {
   EXPECT_GT(cut_off, 100);
 }
 
-// Levels 1 and 2 contradict each other in each tick, and all targets jump. The third iteration
-// and later ones end at Budget::kMost times the limit at the latest. What follows them, and the
-// first two, take less than 1.25 times the first two iterations from an empty working set with
-// what follows those. Without interruptions, some ticks take longer.
+// Levels 1 and 2 contradict each other in each tick, and all targets jump. The
+// third iteration and later ones end at Budget::kMost times the limit at the
+// latest. What follows them, and the first two, take less than 1.25 times the
+// first two iterations from an empty working set with what follows those.
+// Without interruptions, some ticks take longer.
 TEST(SolverBudget, EndsSoonAfterItsLimit) {
   constexpr int kVariables = 60, kLimits = 100, kTask = 20;
   constexpr double kLimit = 300e-6;
@@ -715,8 +721,9 @@ TEST(SolverBudget, EndsSoonAfterItsLimit) {
   EXPECT_GT(cut_off, 200);
 }
 
-// If the iterations end before the search has begun, a limit of time that is not
-// reached changes nothing, neither the levels that are certified nor multipliers.
+// If the iterations end before the search has begun, a limit of time that is
+// not reached changes nothing, neither the levels that are certified nor
+// multipliers.
 TEST(SolverBudget, IsTheSameAtTheStartWithALimitOfTime) {
   for (int seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);

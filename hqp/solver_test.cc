@@ -202,8 +202,8 @@ TEST_F(SolverTest, ReportsBadInput) {
   EXPECT_EQ(solution_.failed_level, 2);
 }
 
-// Numbers whose squares overflow do not enter the search, and the next solves are those of
-// a solver that has never seen them.
+// Numbers whose squares overflow do not enter the search, and the next solves
+// are those of a solver that has never seen them.
 TEST(Solver, RefusesRowsWhoseSquaresOverflow) {
   const std::vector<LevelCapacity> capacity = {{1, 1}, {2, 0}};
   const auto make = [&](double of_B, double of_C, double weight) {
@@ -240,7 +240,8 @@ TEST(Solver, RefusesRowsWhoseSquaresOverflow) {
             Status::kOptimal);
 }
 
-// The status does not depend on the order of the rows, and is that of CheckInput().
+// The status does not depend on the order of the rows, and is that of
+// CheckInput().
 TEST(Solver, ReportsNanBeforeCrossedBounds) {
   const std::vector<LevelCapacity> capacity = {{0, 2}};
   for (const int crossed : {0, 1}) {
@@ -292,7 +293,8 @@ TEST(Solver, ForgetsASearchThatOverflows) {
   EXPECT_EQ(solution.failed_level, 0);
 }
 
-// 1e-17 y_1 is 1 at y_1 = 1e17, though 1 + 1e-17 is 1: the second level has two variables.
+// 1e-17 y_1 is 1 at y_1 = 1e17, though 1 + 1e-17 is 1: the second level has two
+// variables.
 TEST(Solver, ATinyEntryBesideALargeOneCounts) {
   const std::vector<LevelCapacity> capacity = {{1, 0}, {1, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -307,8 +309,9 @@ TEST(Solver, ATinyEntryBesideALargeOneCounts) {
   EXPECT_NEAR(solution.y[0], 2, 1e-14);  // A few roundings of numbers near 1.
 }
 
-// A row that is too small to count leaves its level diagonal. So it takes no memory of the
-// leading levels, and the answer does not depend on the solver's past.
+// A row that is too small to count leaves its level diagonal. So it takes no
+// memory of the leading levels, and the answer does not depend on the solver's
+// past.
 TEST(Solver, LeavesATinyRowOutOfADiagonalLevel) {
   const std::vector<LevelCapacity> capacity = {{0, 1}, {2, 0}};
   constexpr int kMaxLeadingRows = 2;
@@ -509,8 +512,8 @@ TEST(Solver, ForgetsTheRowsOfTheLastSolve) {
   }
 }
 
-// After Forget(), a solver does not know which levels another problem has met. The
-// equality of one variable would else be factored first.
+// After Forget(), a solver does not know which levels another problem has met.
+// The equality of one variable would else be factored first.
 TEST(Solver, RepeatsBitForBitAfterForget) {
   RandomHierarchyOptions options;
   options.scaled = 0;
@@ -535,8 +538,8 @@ TEST(Solver, RepeatsBitForBitAfterForget) {
   }
 }
 
-// A search that is cut off may just have removed a row. A search that starts later must not
-// take this row for one that it has removed itself.
+// A search that is cut off may just have removed a row. A search that starts
+// later must not take this row for one that it has removed itself.
 TEST(Solver, RepeatsBitForBitAfterASearchThatWasCutOff) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -564,7 +567,8 @@ TEST(Solver, RepeatsBitForBitAfterASearchThatWasCutOff) {
   }
 }
 
-// No y changes the violation of a row of zeros, so that the search leaves it alone.
+// No y changes the violation of a row of zeros, so that the search leaves it
+// alone.
 TEST(Solver, ARowOfZerosThatCannotBeMetTakesNoIteration) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
   int iterations[2] = {};

@@ -7,9 +7,9 @@
 /// EIGEN_MAX_ALIGN_BYTES and by -march; with 64 bytes, -march does not matter.
 /// EIGEN_MAX_STATIC_ALIGN_BYTES decides the layout of fixed-size members.
 ///
-/// //tools:install writes installed_alignment.h beside this file, with the alignment of
-/// the libraries. In Poise's own workspace there is no such file, and all code
-/// is compiled with the same flags.
+/// //tools:install writes installed_alignment.h beside this file, with the
+/// alignment of the libraries. In Poise's own workspace there is no such file,
+/// and all code is compiled with the same flags.
 #if __has_include("installed_alignment.h")
 #include <Eigen/Core>
 

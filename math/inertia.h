@@ -72,8 +72,8 @@ Matrix6d Matrix6FromInertia(const Inertia& M_B) noexcept;
 /// is NaN or infinite, all moments are NaN.
 ///
 /// @param I_G  inertia about any point in any axes, symmetric, kg m2.
-/// Costs about 0.7 us. Source: Golub and Van Loan, "Matrix computations", 1996, 8.3,
-/// tridiagonal reduction and implicit QR steps, by Eigen.
+/// Costs about 0.7 us. Source: Golub and Van Loan, "Matrix computations", 1996,
+/// 8.3, tridiagonal reduction and implicit QR steps, by Eigen.
 Eigen::Vector3d PrincipalMoments(const Eigen::Matrix3d& I_G) noexcept;
 
 /// InertiaDefect says why no body has a given inertia.

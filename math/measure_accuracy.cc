@@ -32,7 +32,7 @@ MatrixXmp PowerSeries(const MatrixXmp& A, int shift) {
   const int size = static_cast<int>(A.rows());
   MatrixXmp term = MatrixXmp::Identity(size, size) * (1 / mpfr::fac_ui(shift));
   MatrixXmp sum = term;
-  // |A| <= 4 π + |v|: from n = 25 on each term is at most half of the one before.
+  // |A| <= 4 π + |v|: from n = 25 on each term is at most half the one before.
   for (int n = 1; n < 25 || term.squaredNorm() > 1e-100; ++n) {
     term = (term.lazyProduct(A) / mpreal(n + shift)).eval();
     sum += term;

@@ -38,9 +38,10 @@ class RankRevealing {
   /// Decomposes A, which has at most the constructor's size (asserted). A may
   /// have no rows or no columns.
   ///
-  /// @param scale  norm of the matrix that A was computed from, if A is a remainder
-  ///               after a projection. The threshold is then relative to scale if
-  ///               scale exceeds sigma_max. Use 1 for rows that had unit length.
+  /// @param scale  norm of the matrix that A was computed from, if A is a
+  ///               remainder after a projection. The threshold is then relative
+  ///               to scale if scale exceeds sigma_max. Use 1 for rows that had
+  ///               unit length.
   ///
   /// If an entry is not finite, all results are NaN and the rank is 0.
   void Compute(const Eigen::Ref<const Eigen::MatrixXd>& A,

@@ -14,9 +14,9 @@ namespace poise {
 Eigen::Matrix3d MatrixFromRpy(const Eigen::Vector3d& rpy) noexcept;
 
 /// Returns rpy of R, the inverse of MatrixFromRpy(), with |pitch| <= π/2, and
-/// with roll and yaw in [-π, π]. If R(2, 1) = R(2, 2) = 0 (pitch exactly ± π/2),
-/// roll and yaw are not unique, and roll is 0. A NaN or an infinity gives NaN in
-/// all components.
+/// with roll and yaw in [-π, π]. If R(2, 1) = R(2, 2) = 0 (pitch exactly ±
+/// π/2), roll and yaw are not unique, and roll is 0. A NaN or an infinity gives
+/// NaN in all components.
 Eigen::Vector3d RpyFromMatrix(const Eigen::Matrix3d& R) noexcept;
 
 }  // namespace poise

@@ -25,7 +25,7 @@ inline Eigen::Vector3d Vee(const Eigen::Matrix3d& W) noexcept {
 }
 
 /// Returns the rotation by |w| about w, for any |w|:
-///     exp(Hat(w)) = I + sin θ / θ Hat(w) + (1 - cos θ) / θ² Hat(w)²,   θ = |w|.
+///     exp(Hat(w)) = I + sin θ / θ Hat(w) + (1 - cos θ) / θ² Hat(w)², θ = |w|.
 ///
 /// The error is at most 4 eps max(1, |w|) in the norm of the result. The error
 /// of the antisymmetric part has this bound relative to |w| too, down to |w| =

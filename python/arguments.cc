@@ -25,8 +25,8 @@ std::string TypeName(py::handle value) {
 
 namespace {
 
-// Forgets an exception of Python, for which the caller throws another one. Ctrl-C
-// and the like are thrown instead.
+// Forgets an exception of Python, for which the caller throws another one.
+// Ctrl-C and the like are thrown instead.
 void ForgetError() {
   if (PyErr_Occurred() == nullptr) return;
   if (PyErr_ExceptionMatches(PyExc_Exception) == 0) {

@@ -47,8 +47,8 @@ class InputError : public std::invalid_argument {
 /// Returns the path of an entry of a list: "pushes[2]".
 std::string EntryPath(const std::string& list, std::size_t entry);
 
-/// Returns make(). If it throws a std::invalid_argument that names neither a field nor a
-/// file, throws it as an InputError of `field`.
+/// Returns make(). If it throws a std::invalid_argument that names neither a
+/// field nor a file, throws it as an InputError of `field`.
 template <typename Make>
 auto MakeOfField(const std::string& field, Make make) -> decltype(make()) {
   try {

@@ -6,25 +6,26 @@
 
 namespace poise {
 
-/// Replaces the content of a file by `text`, in one step: a reader, or an interrupted
-/// program, sees either the old file or the new one. A device or a pipe is written
-/// directly. Throws std::invalid_argument with the name of the file and the system's
-/// reason if the file cannot be written; the old file then stays.
+/// Replaces the content of a file by `text`, in one step: a reader, or an
+/// interrupted program, sees either the old file or the new one. A device or a
+/// pipe is written directly. Throws std::invalid_argument with the name of the
+/// file and the system's reason if the file cannot be written; the old file
+/// then stays.
 void WriteFile(const std::filesystem::path& file, std::string_view text);
 
-/// Makes a folder, and those above, if they do not exist. Throws std::invalid_argument
-/// with the name of the folder and the system's reason if there can be no such folder, or
-/// if no file can be written there.
+/// Makes a folder, and those above, if they do not exist. Throws
+/// std::invalid_argument with the name of the folder and the system's reason if
+/// there can be no such folder, or if no file can be written there.
 void MakeFolder(const std::filesystem::path& folder);
 
 /// Throws std::invalid_argument with the name of a file and the system's reason
-/// if the file cannot be written. Changes nothing: does not create the file, and
-/// does not shorten it. A file in a folder that does not exist is accepted.
+/// if the file cannot be written. Changes nothing: does not create the file,
+/// and does not shorten it. A file in a folder that does not exist is accepted.
 void RequireWritable(const std::filesystem::path& file);
 
-/// Throws std::invalid_argument with the name of a file and the system's reason.
-/// Must be called directly after the attempt to open or write the file, because
-/// the reason is in errno.
+/// Throws std::invalid_argument with the name of a file and the system's
+/// reason. Must be called directly after the attempt to open or write the file,
+/// because the reason is in errno.
 [[noreturn]] void ThrowNotWritten(const std::filesystem::path& file);
 
 }  // namespace poise

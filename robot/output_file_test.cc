@@ -94,8 +94,8 @@ TEST(WriteFile, GivesTheReasonOfTheSystem) {
 TEST(WriteFile, OpensAPipeOnce) {
   const fs::path pipe = Folder("pipe") / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  // The reader gets all that is written until the pipe is closed for the first time.
-  // Often enough, so that a second opening would be seen.
+  // The reader gets all that is written until the pipe is closed for the first
+  // time. Often enough, so that a second opening would be seen.
   for (int i = 0; i < 200; ++i) {
     std::future<std::string> read =
         std::async(std::launch::async, [&] { return Read(pipe); });

@@ -83,9 +83,9 @@ class Observer {
   bool first_ = true;
 };
 
-/// Returns the height of the center of mass above the lowest sole in the nominal
-/// posture, m. The origin of the root link is no measure of a robot's height:
-/// in some files it lies on the ground.
+/// Returns the height of the center of mass above the lowest sole in the
+/// nominal posture, m. The origin of the root link is no measure of a robot's
+/// height: in some files it lies on the ground.
 double StandingHeight(const Robot& robot);
 
 }  // namespace poise

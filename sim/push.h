@@ -69,9 +69,9 @@ const Push* LargestPush(const std::vector<Push>& pushes, double until);
 /// moment are.
 bool IsZero(const Push& push);
 
-/// Returns the time from the end of the last push to a time, s. Pushes that have
-/// not begun by then, and those that are zero, do not count. Negative if a push is
-/// active at that time; infinite if no push counts.
+/// Returns the time from the end of the last push to a time, s. Pushes that
+/// have not begun by then, and those that are zero, do not count. Negative if a
+/// push is active at that time; infinite if no push counts.
 double TimeAfterPushes(const std::vector<Push>& pushes, double until);
 
 /// A push on a robot, with its link resolved to a body.

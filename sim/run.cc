@@ -144,9 +144,9 @@ void JudgeCommands(const ClosedLoop& loop, const CommandWatch& watch,
   }
 }
 
-// Returns after how many ticks progress() is called: at least 100 times per run,
-// and at least every 1000 plant steps. So a run with many or slow ticks can be
-// stopped quickly, too.
+// Returns after how many ticks progress() is called: at least 100 times per
+// run, and at least every 1000 plant steps. So a run with many or slow ticks
+// can be stopped quickly, too.
 long TicksBetweenReports(const Scenario& scenario, long ticks) {
   const long steps = std::lround(scenario.control.dt / scenario.plant.dt);
   return std::clamp(ticks / 100, 1L, std::max(1L, 1000 / steps));

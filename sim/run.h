@@ -69,9 +69,9 @@ struct RunResult {
 /// Returns the cause of the fall in words; empty without a fall.
 std::string FellBy(const RunResult& result);
 
-/// Returns the time from the end of the last push to the end of the run, s, if it
-/// is shorter than Judge::kEnd. The judged interval then has time of the push or
-/// before it, so the run is too short to show that the robot recovered.
+/// Returns the time from the end of the last push to the end of the run, s, if
+/// it is shorter than Judge::kEnd. The judged interval then has time of the
+/// push or before it, so the run is too short to show that the robot recovered.
 std::optional<double> TooShortAfterPushes(const Scenario& scenario,
                                           const RunResult& result);
 

@@ -54,8 +54,9 @@ TEST(Run, SameSeedGivesTheSameBytesInAnyOrderAndInParallel) {
   EXPECT_NE(poise::Run(Humanoid(), scenario, Folder("other")).log_sha256, once);
 }
 
-// A budget in modelled time ends many ticks of a push early. The run is still the same
-// each time, and the robot stays up, since the next tick continues the search.
+// A budget in modelled time ends many ticks of a push early. The run is still
+// the same each time, and the robot stays up, since the next tick continues the
+// search.
 TEST(Run, IsTheSameEachTimeWithABudget) {
   Scenario scenario = Ours("strong_push", 1.3);
   scenario.control.budget_us = 100;
@@ -231,8 +232,8 @@ TEST(Run, DistinguishesABlowUpFromAFall) {
 
 // With a delay of three ticks, the plant applies the torques that the
 // controller commanded three ticks before.
-// Right after the lift, only the left foot is meant to be down. The CoM is still
-// amid the feet, outside of the left sole.
+// Right after the lift, only the left foot is meant to be down. The CoM is
+// still amid the feet, outside of the left sole.
 TEST(Run, SaysThatAFractionOfABoundOfZeroIsNoPush) {
   Scenario scenario = Ours("stand", 0.3);
   StanceEvent lift;

@@ -93,7 +93,8 @@ struct Scenario {
 /// the allowed values. Rejects unknown keys.
 Scenario ReadScenario(const std::filesystem::path& file);
 
-/// Reads a scenario from the text of a file, as ReadScenario() does from a file.
+/// Reads a scenario from the text of a file, as ReadScenario() does from a
+/// file.
 ///
 /// @param source  the name of the text in messages.
 /// @param name    the scenario's name if the text has none.

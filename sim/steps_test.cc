@@ -192,8 +192,8 @@ TEST(Steps, CatchAPushDuringACommandedStep) {
   }
 }
 
-// After the first step the feet belong to the gait. The run reports each command
-// that is left out.
+// After the first step the feet belong to the gait. The run reports each
+// command that is left out.
 TEST(Steps, EndTheStanceOfTheScenarioAndSaySo) {
   Scenario scenario = Shove(40, 0);
   StanceEvent lift;

@@ -73,8 +73,8 @@ std::vector<std::string> Cells(const std::string& line) {
 // Describes the first fault of a log file, or returns "". The log must have one
 // row per tick. Each cell must be a finite number, except in the columns of
 // words. The center of pressure may be NaN: it is undefined while the feet
-// carry no load. So may the planned step while the robot does not step. A gap may be
-// infinite, or NaN in a tick that fails safe.
+// carry no load. So may the planned step while the robot does not step. A gap
+// may be infinite, or NaN in a tick that fails safe.
 std::string WrongWithLog(const std::filesystem::path& file, long ticks) {
   std::ifstream stream(file);
   std::string line;

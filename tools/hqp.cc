@@ -20,8 +20,9 @@
 namespace poise {
 namespace {
 
-// Refuses values that CLI11 accepts, such as NaN, and a budget that has no effect. Warns of
-// an iteration limit without effect; each solve of the cascade is cold.
+// Refuses values that CLI11 accepts, such as NaN, and a budget that has no
+// effect. Warns of an iteration limit without effect; each solve of the cascade
+// is cold.
 void CheckMethod(const CLI::App& app, const HqpMethod& method) {
   constexpr double kMostUs = 1e6;
   if (!(method.budget_us >= 0 && method.budget_us <= kMostUs)) {

@@ -28,14 +28,14 @@
 /// | 100 joints | ComputeRnea | 2.04 | 1.69 |
 /// | 1000 joints | ComputeRnea | 2.13 | 1.82 |
 ///
-/// The sweeps have a version with AVX2, see math/target_clones.h. It does not fuse a
-/// product with a sum, so that it gives the same results as the version with SSE2. For
-/// ComputeRnea, the scalar loops of the native build take 0.87 of the time of those of
-/// the other build, so that its lanes are worth less.
+/// The sweeps have a version with AVX2, see math/target_clones.h. It does not
+/// fuse a product with a sum, so that it gives the same results as the version
+/// with SSE2. For ComputeRnea, the scalar loops of the native build take 0.87
+/// of the time of those of the other build, so that its lanes are worth less.
 ///
-/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest of
-/// 15 repetitions, in three runs. 50 joints are the humanoid of robot/models; the
-/// other trees are random. Scalar loops are those of
+/// Measured on one core of an AMD EPYC with AVX-512, by GCC 12.2: the fastest
+/// of 15 repetitions, in three runs. 50 joints are the humanoid of
+/// robot/models; the other trees are random. Scalar loops are those of
 ///     bazel run --config=opt
 ///         --per_file_copt='^dynamics/.*@-fno-tree-loop-vectorize'
 ///         //tests/benchmarks:dynamics_benchmark

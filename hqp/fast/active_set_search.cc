@@ -11,19 +11,20 @@
 namespace poise {
 namespace {
 
-// Longest path, in iterations. After more iterations, steps of the primal method are
-// likely to reach the optimum first: they need not follow each change of the working
-// set between the last optimum and this one. No longer path is better for all
-// sequences (docs/notebook/2026-11-28-look-ahead.md).
+// Longest path, in iterations. After more iterations, steps of the primal
+// method are likely to reach the optimum first: they need not follow each
+// change of the working set between the last optimum and this one. No longer
+// path is better for all sequences (docs/notebook/2026-11-28-look-ahead.md).
 constexpr int kLongPath = 25;
 
-// The share of the time for a path whose start does not meet the levels before the last. Of
-// 0.7, 0.75, 0.8, 0.85, 0.9 and 0.95, this is the largest with which no recorded robot that
-// stays up loses limits or feet in 300 us (docs/notebook/2026-12-01-path-first.md).
+// The share of the time for a path whose start does not meet the levels before
+// the last. Of 0.7, 0.75, 0.8, 0.85, 0.9 and 0.95, this is the largest with
+// which no recorded robot that stays up loses limits or feet in 300 us
+// (docs/notebook/2026-12-01-path-first.md).
 constexpr double kShareOfPath = 0.8;
 
-// How often a search removes many rows together, see RemoveConstraints(). With 4 and 10
-// the worst ticks are the same (docs/notebook/2026-11-28-groups.md).
+// How often a search removes many rows together, see RemoveConstraints(). With
+// 4 and 10 the worst ticks are the same (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxTogether = 4;
 
 }  // namespace
@@ -74,9 +75,10 @@ bool ActiveSetSearch::AllAtOnce(const Hierarchy& hierarchy, int limit,
   return true;
 }
 
-// Starts a search on all levels, and follows the path from the last optimum. With a
-// limit of time, all leading levels but the last are met before, or else in the time that
-// the path leaves: an answer that is cut off loses momentum before limits and feet.
+// Starts a search on all levels, and follows the path from the last optimum.
+// With a limit of time, all leading levels but the last are met before, or else
+// in the time that the path leaves: an answer that is cut off loses momentum
+// before limits and feet.
 ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
     const Hierarchy& hierarchy, int limit, Budget* budget,
     WorkingSetProblem* problem, std::vector<std::vector<Side>>* side) {
@@ -127,22 +129,24 @@ ActiveSetSearch::PathEnd ActiveSetSearch::FollowPath(
   return PathEnd::kGivenUp;
 }
 
-// Searches from the optimum of the working set, for which `problem` is solved, or from y,
-// see AllAtOnce().
+// Searches from the optimum of the working set, for which `problem` is solved,
+// or from y, see AllAtOnce().
 bool ActiveSetSearch::SearchFromOptimum(const Hierarchy& hierarchy, int limit,
                                         Budget* budget,
                                         WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   num_together_ = kMaxTogether;
   last_removed_ = {};
-  // A search that goes on adds the violated rows one by one, so that each can replace a
-  // row that it depends on. With a limit of time, these are too many iterations.
+  // A search that goes on adds the violated rows one by one, so that each can
+  // replace a row that it depends on. With a limit of time, these are too many
+  // iterations.
   const bool adds_violated = !goes_on_ || budget->has_time_limit();
   if (!InitializeAllLevels(hierarchy, adds_violated, problem, side))
     return true;
-  // The leading levels come first, because their steps are cheaper. With a limit
-  // of time, all of them but the last are searched alone before. If these need no
-  // step, the last one gets theirs: else a small budget would never reach it.
+  // The leading levels come first, because their steps are cheaper. With a
+  // limit of time, all of them but the last are searched alone before. If these
+  // need no step, the last one gets theirs: else a small budget would never
+  // reach it.
   const int leading = problem->num_leading();
   int used = budget->has_time_limit() ? std::max(leading - 1, 1) : leading;
   for (bool is_free = false; used <= leading; ++used) {
@@ -328,9 +332,9 @@ bool ActiveSetSearch::Iterate(const Hierarchy& hierarchy, int level,
 
 // Removes constraints with a negative multiplier from the working set: all that
 // are strictly inside their bound, or else the one with the most negative
-// multiplier. In the first such iterations of a search, num_together_ of them, all whose
-// multiplier comes from a diagonal level are removed as well, because a step there is
-// expensive. Returns whether a constraint was removed.
+// multiplier. In the first such iterations of a search, num_together_ of them,
+// all whose multiplier comes from a diagonal level are removed as well, because
+// a step there is expensive. Returns whether a constraint was removed.
 bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
                                         std::vector<std::vector<Side>>* side) {
   int removed = -1;
@@ -368,9 +372,9 @@ bool ActiveSetSearch::RemoveConstraints(int level, WorkingSetProblem* problem,
   return true;
 }
 
-// Turns the rows of a level that are violated at its optimum into equalities. A row
-// without removals left blocks no step, so that later levels could violate it. So all
-// other rows up to this level get their removals again.
+// Turns the rows of a level that are violated at its optimum into equalities. A
+// row without removals left blocks no step, so that later levels could violate
+// it. So all other rows up to this level get their removals again.
 void ActiveSetSearch::FreezeViolated(
     int level, const WorkingSetProblem& problem,
     const std::vector<std::vector<Side>>& side) {

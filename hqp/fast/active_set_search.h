@@ -13,13 +13,13 @@
 
 namespace poise {
 
-/// Finds the optimum of a hierarchy. AllAtOnce() follows a path from the last optimum,
-/// see ParametricSearch. A primal active-set method follows if there is no such
-/// optimum, or if the path was given up. See README.md.
+/// Finds the optimum of a hierarchy. AllAtOnce() follows a path from the last
+/// optimum, see ParametricSearch. A primal active-set method follows if there
+/// is no such optimum, or if the path was given up. See README.md.
 ///
-/// Invariant of the primal method: outside the working set, y violates no row by
-/// more than rounding, except in a search that goes on from another y.
-/// A step goes from y towards the optimum of the working set, and the first
+/// Invariant of the primal method: outside the working set, y violates no row
+/// by more than rounding, except in a search that goes on from another y. A
+/// step goes from y towards the optimum of the working set, and the first
 /// blocking constraint is added to the working set. At that optimum, rows
 /// strictly inside their bound are removed. If there is none, the row with the
 /// most negative multiplier is removed.
@@ -28,12 +28,13 @@ class ActiveSetSearch {
   ActiveSetSearch(int num_variables,
                   const std::vector<LevelCapacity>& capacity);
 
-  /// Searches on all levels at once, from the working set `side`. Returns whether the
-  /// optimum was found: `problem` is then solved for it and has all its multipliers. If
-  /// not, the budget, or `limit` iterations of it, did not suffice. The primal method
-  /// starts from the optimum of this working set, or from y() if y() violates fewer
-  /// rows, or is not worse if the search goes on. Rows violated there are added to the
-  /// working set, at once or by later steps.
+  /// Searches on all levels at once, from the working set `side`. Returns
+  /// whether the optimum was found: `problem` is then solved for it and has all
+  /// its multipliers. If not, the budget, or `limit` iterations of it, did not
+  /// suffice. The primal method starts from the optimum of this working set, or
+  /// from y() if y() violates fewer rows, or is not worse if the search goes
+  /// on. Rows violated there are added to the working set, at once or by later
+  /// steps.
   bool AllAtOnce(const Hierarchy& hierarchy, int limit, Budget* budget,
                  WorkingSetProblem* problem,
                  std::vector<std::vector<Side>>* side);
@@ -52,10 +53,11 @@ class ActiveSetSearch {
                    WorkingSetProblem* problem,
                    std::vector<std::vector<Side>>* side);
 
-  /// Ends a search that is not complete. If the search has followed a path, the next
-  /// AllAtOnce() continues this path, see Resume(). If not, removes the rows from the
-  /// working set that y() meets strictly, and the next AllAtOnce() starts from y(), if
-  /// y() is not worse than the optimum of its working set.
+  /// Ends a search that is not complete. If the search has followed a path, the
+  /// next AllAtOnce() continues this path, see Resume(). If not, removes the
+  /// rows from the working set that y() meets strictly, and the next
+  /// AllAtOnce() starts from y(), if y() is not worse than the optimum of its
+  /// working set.
   void Stop(const Hierarchy& hierarchy, const WorkingSetProblem& problem,
             std::vector<std::vector<Side>>* side);
 
@@ -69,8 +71,8 @@ class ActiveSetSearch {
     path_.Forget();
   }
 
-  /// Replaces `side` by the working set of a path that the budget has ended. The next
-  /// AllAtOnce() continues this path.
+  /// Replaces `side` by the working set of a path that the budget has ended.
+  /// The next AllAtOnce() continues this path.
   void Resume(std::vector<std::vector<Side>>* side) const {
     path_.Resume(side);
   }
@@ -79,8 +81,8 @@ class ActiveSetSearch {
   struct Blocking {
     Side side = Side::kNone;  ///< kNone: the row does not block.
     double length = 1;        ///< Part of the step up to its bound.
-    /// Slope, or the violation at the end of the step if the row blocks at once; divided
-    /// by the sum of absolute entries.
+    /// Slope, or the violation at the end of the step if the row blocks at
+    /// once; divided by the sum of absolute entries.
     double excess = 0;
   };
 
@@ -126,8 +128,9 @@ class ActiveSetSearch {
   std::vector<double> set_optimum_;
   std::vector<double> step_, value_, slope_;
   RemovalLimits removals_;
-  /// Whether the primal method goes on from the y of a search that was stopped, or of a
-  /// path that was given up. This y may be strictly inside bounds of the working set.
+  /// Whether the primal method goes on from the y of a search that was stopped,
+  /// or of a path that was given up. This y may be strictly inside bounds of
+  /// the working set.
   bool goes_on_ = false;
   /// Iterations left that may remove rows together, see RemoveConstraints().
   int num_together_ = 0;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// ActiveSetSearch: steps up to a blocking constraint, and the row that this one replaces.
+// ActiveSetSearch: steps up to a blocking constraint, and the row that this one
+// replaces.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +11,9 @@
 namespace poise {
 
 // Moves y towards the optimum of the working set, up to the first bound outside
-// the working set, and adds that bound to it. Among bounds at equal distance, this
-// function adds the one of the largest excess. The result is its row, or no row.
+// the working set, and adds that bound to it. Among bounds at equal distance,
+// this function adds the one of the largest excess. The result is its row, or
+// no row.
 RowIndex ActiveSetSearch::StepToBlockingConstraint(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     std::vector<std::vector<Side>>* side) {
@@ -53,10 +55,10 @@ RowIndex ActiveSetSearch::StepToBlockingConstraint(
   return added;
 }
 
-// Finds where a step blocks at a row, whose side in the working set is `side`. In a search
-// that goes on, a bound that y violates at the start and at the end of the step blocks at
-// once. In other searches, such rows are in the working set from the start.
-// pre: value_ and slope_ are those of the row's level.
+// Finds where a step blocks at a row, whose side in the working set is `side`.
+// In a search that goes on, a bound that y violates at the start and at the end
+// of the step blocks at once. In other searches, such rows are in the working
+// set from the start. pre: value_ and slope_ are those of the row's level.
 ActiveSetSearch::Blocking ActiveSetSearch::FindBlocking(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem, RowIndex row,
     Side side, double noise) const {
@@ -82,15 +84,16 @@ ActiveSetSearch::Blocking ActiveSetSearch::FindBlocking(
   return {towards, std::max(gap / slope, 0.0), std::abs(slope) / norm};
 }
 
-// Removes a row from the working set if the row that a step has added depends on others.
-// If y is at the bounds of the working set, a step does not change its rows, so it has no
-// slope on a row that depends on them. In a search that goes on, y may be strictly inside
-// some of these bounds. The step then changes their rows, and it can be blocked by a row
-// that depends on them. With both, the level would be contradictory, and the next optimum
-// would violate rows that y does not violate. So this function removes a row of which y is
-// strictly inside the bound, and of which the next optimum is inside as well: the
-// combination has a positive factor for it, if factors count towards the bounds. Lower
-// levels come first.
+// Removes a row from the working set if the row that a step has added depends
+// on others. If y is at the bounds of the working set, a step does not change
+// its rows, so it has no slope on a row that depends on them. In a search that
+// goes on, y may be strictly inside some of these bounds. The step then changes
+// their rows, and it can be blocked by a row that depends on them. With both,
+// the level would be contradictory, and the next optimum would violate rows
+// that y does not violate. So this function removes a row of which y is
+// strictly inside the bound, and of which the next optimum is inside as well:
+// the combination has a positive factor for it, if factors count towards the
+// bounds. Lower levels come first.
 void ActiveSetSearch::RemoveDependentRow(const Hierarchy& hierarchy,
                                          RowIndex added,
                                          WorkingSetProblem* problem,
@@ -125,8 +128,8 @@ void ActiveSetSearch::RemoveDependentRow(const Hierarchy& hierarchy,
   removals_.CountRemoval(removed);
 }
 
-// Returns whether y, whose largest entry is `largest`, is strictly inside the bound of a
-// row.
+// Returns whether y, whose largest entry is `largest`, is strictly inside the
+// bound of a row.
 bool ActiveSetSearch::IsInside(const Hierarchy& hierarchy,
                                const WorkingSetProblem& problem, RowIndex row,
                                Side side, double largest) const {

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests of the steps of ActiveSetSearch in a search that goes on from another y.
+// Tests of the steps of ActiveSetSearch in a search that goes on from another
+// y.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -59,10 +60,10 @@ class GoingOn {
   std::vector<std::vector<Side>> side_;
 };
 
-// The rows y_0 <= 2, y_1 <= 2 and y_0 + y_1 <= 3, of which the first two are in the
-// working set, and the target (5, 5). The step towards (2, 2) stops at the third row,
-// which depends on the other two. If all three were kept, y would go to the point that
-// violates each of them least, (5/3, 5/3).
+// The rows y_0 <= 2, y_1 <= 2 and y_0 + y_1 <= 3, of which the first two are in
+// the working set, and the target (5, 5). The step towards (2, 2) stops at the
+// third row, which depends on the other two. If all three were kept, y would go
+// to the point that violates each of them least, (5/3, 5/3).
 TEST(BlockingConstraint, ReplacesARowThatYIsStrictlyInside) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {2, 0}};
   Hierarchy hierarchy(2, capacity);
@@ -89,8 +90,9 @@ TEST(BlockingConstraint, ReplacesARowThatYIsStrictlyInside) {
   }
 }
 
-// y = 0 is inside most limits of two levels, and violates four of the first. It never gets
-// worse, whichever rows of an independent working set are strictly inside their bound.
+// y = 0 is inside most limits of two levels, and violates four of the first. It
+// never gets worse, whichever rows of an independent working set are strictly
+// inside their bound.
 TEST(BlockingConstraint, NeverViolatesLimitsMore) {
   constexpr int kVariables = 8, kLimits = 24, kViolated = 4, kTask = 3;
   const std::vector<LevelCapacity> capacity{
@@ -150,8 +152,9 @@ TEST(BlockingConstraint, NeverViolatesLimitsMore) {
   EXPECT_GT(stopped, 1000);
 }
 
-// The row y <= 2 of level 0 is in the working set, and the step towards it stops at y <= 1
-// of level 1. If both were kept, y would go to 2, and level 1 would be violated.
+// The row y <= 2 of level 0 is in the working set, and the step towards it
+// stops at y <= 1 of level 1. If both were kept, y would go to 2, and level 1
+// would be violated.
 TEST(BlockingConstraint, ReplacesARowOfALevelAbove) {
   const std::vector<LevelCapacity> capacity{{0, 1}, {0, 1}, {1, 0}};
   Hierarchy hierarchy(1, capacity);
@@ -212,23 +215,24 @@ class ViolatedBoundTest : public testing::TestWithParam<int> {
   Hierarchy hierarchy_{2, capacity_};
 };
 
-// y = 0 violates y_0 >= 1, which is not in the working set. The step towards the target
-// (2, 3) meets this bound and stops at -y_1 >= -1; the first bound is not added.
+// y = 0 violates y_0 >= 1, which is not in the working set. The step towards
+// the target (2, 3) meets this bound and stops at -y_1 >= -1; the first bound
+// is not added.
 TEST_P(ViolatedBoundTest, IsNotAddedIfTheStepMeetsIt) {
   AddRow({1, 0}, 1);
   AddRow({0, -1}, -1);
   AddTarget({2, 3});
   GoingOn search(hierarchy_, capacity_, {{Side::kNone, Side::kNone}, {}});
-  // One iteration finds the target, one stops at the bound of y_1, one goes to the
-  // optimum, and one solves for the diagonal levels.
+  // One iteration finds the target, one stops at the bound of y_1, one goes to
+  // the optimum, and one solves for the diagonal levels.
   EXPECT_TRUE(search.Search(4));
   EXPECT_EQ(search.side(0, 0), Side::kNone);
   EXPECT_NEAR((search.y() - sign_ * Eigen::Vector2d(2, 1)).norm(), 0,
               Rounding(3, 2));
 }
 
-// As before, but the target is (0.5, 0): the step does not meet the bound, which blocks at
-// once.
+// As before, but the target is (0.5, 0): the step does not meet the bound,
+// which blocks at once.
 TEST_P(ViolatedBoundTest, IsAddedIfTheStepDoesNotMeetIt) {
   AddRow({1, 0}, 1);
   AddTarget({0.5, 0});

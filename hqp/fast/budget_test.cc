@@ -81,8 +81,8 @@ TEST(Budget, StopsAtItsModelledTime) {
   EXPECT_TRUE(endless.Take({1000 * kWork, 7}));
 }
 
-// A share of the time ends one search; the rest of the time remains. A share does not hold for
-// the first two iterations, nor without a limit of time.
+// A share of the time ends one search; the rest of the time remains. A share
+// does not hold for the first two iterations, nor without a limit of time.
 TEST(Budget, StopsAtItsShareOfTheTime) {
   constexpr std::int64_t kWork = 1000000;
   double time = 100;
@@ -106,8 +106,8 @@ TEST(Budget, StopsAtItsShareOfTheTime) {
   }
 }
 
-// Each Take() reads the clock once, so that a clock that goes on cannot end the share, but not
-// the time, of a budget without a share.
+// Each Take() reads the clock once, so that a clock that goes on cannot end the
+// share, but not the time, of a budget without a share.
 TEST(Budget, ReadsTheClockOncePerIteration) {
   int reads = 0;
   const std::function<double()> now = [&] { return ++reads; };
@@ -131,7 +131,8 @@ TEST(Budget, KnowsWhetherItsTimeIsLimited) {
   EXPECT_TRUE(Budget({9, 1}, &no_clock).has_time_limit());
 }
 
-// With all of them, the modelled time is kMost times the limit, to one multiply-add.
+// With all of them, the modelled time is kMost times the limit, to one
+// multiply-add.
 TEST(Budget, LeavesTheMultiplyAddsUntilItsMost) {
   Work work = {1000, 7, 3, 20, 2, 1};
   const double limit = 2 * ModelledSeconds(work);
@@ -162,8 +163,8 @@ TEST(Budget, LeavesTheMultiplyAddsOfTheTimeByTheClock) {
   EXPECT_EQ(both.MultiplyAddsLeft({}), modelled.MultiplyAddsLeft({}));
 }
 
-// The first two iterations may take any time, because the search must advance. A later one
-// has a limit, even if the time ends right after its begin.
+// The first two iterations may take any time, because the search must advance.
+// A later one has a limit, even if the time ends right after its begin.
 TEST(Budget, LeavesAllMultiplyAddsForTheFirstIterations) {
   constexpr std::int64_t kUnlimited = Budget::kUnlimited;
   double time = 5;

@@ -55,8 +55,9 @@ Cost FindCost(const Hierarchy& hierarchy, int level,
   return sum;
 }
 
-// Returns by how much rounding of y, whose largest entry is `largest`, can change twice the
-// cost of a level. Where the terms of rows cancel, this is more than rounding of the cost.
+// Returns by how much rounding of y, whose largest entry is `largest`, can
+// change twice the cost of a level. Where the terms of rows cancel, this is
+// more than rounding of the cost.
 double CostOfRounding(const Hierarchy& hierarchy, int level,
                       const std::vector<double>& y, double largest) {
   const double rounding = tolerances::kSolutionRounding * largest;

@@ -33,8 +33,8 @@ Eigen::MatrixXd RowsAbove(const Hierarchy& hierarchy, int levels) {
   return rows;
 }
 
-// Returns twice the cost of a level in long double. The slack is the distance of C y from
-// its projection on the bounds.
+// Returns twice the cost of a level in long double. The slack is the distance
+// of C y from its projection on the bounds.
 long double PreciseCost(const Hierarchy& hierarchy, int level,
                         const Eigen::VectorXd& y) {
   using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -91,7 +91,8 @@ TEST_F(CostOrderTest, ABoundIsViolatedOnEitherSide) {
   EXPECT_TRUE(IsBetter({-1, -1}, {-2, -2}));  // At the bound, 1 below.
 }
 
-// Rounding of 1e8 on a row that is met does not hide a violation of 1 on another row.
+// Rounding of 1e8 on a row that is met does not hide a violation of 1 on
+// another row.
 TEST_F(CostOrderTest, ARowThatIsMetHidesNothing) {
   const double large = 1e8;
   EXPECT_TRUE(IsBetter({3, -large}, {4, -large + 1}));
@@ -104,15 +105,16 @@ TEST_F(CostOrderTest, ARowOfWeightZeroHasNoCost) {
   EXPECT_FALSE(IsBetter({9, 9}, {0, 1}));
 }
 
-// y_0 - y_1 = 4e-7 is rounding of entries of 1e8: the levels below decide. A thousand times
-// as much is not rounding.
+// y_0 - y_1 = 4e-7 is rounding of entries of 1e8: the levels below decide. A
+// thousand times as much is not rounding.
 TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothing) {
   const double large = 1e8;
   EXPECT_TRUE(IsBetter({-large, -large + 4e-7}, {-2 * large, -2 * large}));
   EXPECT_FALSE(IsBetter({-large, -large + 4e-4}, {-2 * large, -2 * large}));
 }
 
-// Where a row misses its target by 1, the rounding 4e-7 changes the cost by 8e-7 of it.
+// Where a row misses its target by 1, the rounding 4e-7 changes the cost by
+// 8e-7 of it.
 TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothingBesideAResidual) {
   const double large = 1e8;
   *offset_ = 1;
@@ -120,24 +122,26 @@ TEST_F(CostOrderTest, RoundingOfThePointsDecidesNothingBesideAResidual) {
   EXPECT_FALSE(IsBetter({-large, -large - 4e-4}, {-2 * large, -2 * large}));
 }
 
-// The terms 1000 and -999 leave a residual of 1. Its rounding counts, not that of 1999: a
-// change of the cost by 1e-7 decides, though the last level is worse.
+// The terms 1000 and -999 leave a residual of 1. Its rounding counts, not that
+// of 1999: a change of the cost by 1e-7 decides, though the last level is
+// worse.
 TEST_F(CostOrderTest, TermsThatCancelDoNotCountAsAResidual) {
   *offset_ = -999;
   EXPECT_TRUE(IsBetter({1000, 5e-8}, {1000, 0}));
   EXPECT_FALSE(IsBetter({1000, 0}, {1000, 5e-8}));
 }
 
-// Entries of 2e8 are right to 1e-13 of it, so that their difference is right to 4e-5. A
-// residual of 6e-5 is near that: it may be 2e-5, and its cost decides nothing.
+// Entries of 2e8 are right to 1e-13 of it, so that their difference is right to
+// 4e-5. A residual of 6e-5 is near that: it may be 2e-5, and its cost decides
+// nothing.
 TEST_F(CostOrderTest, TheWorsePointIsRoundedToo) {
   const double large = 1e8;
   EXPECT_TRUE(IsBetter({-large, -large - 6e-5}, {-2 * large, -2 * large}));
   EXPECT_FALSE(IsBetter({-2 * large, -2 * large}, {-large, -large - 6e-5}));
 }
 
-// The rows y_1 = 1 and y_1 = -1 contradict each other. A row of weight 1e6 that is met does
-// not hide that they are missed by more.
+// The rows y_1 = 1 and y_1 = -1 contradict each other. A row of weight 1e6 that
+// is met does not hide that they are missed by more.
 TEST(CostOrder, ARowOfLargeWeightThatIsMetHidesNothing) {
   Hierarchy hierarchy(2, {{3, 0}, {1, 0}});
   EqualityBlock first = hierarchy.AddEqualities(0, 3);
@@ -151,8 +155,9 @@ TEST(CostOrder, ARowOfLargeWeightThatIsMetHidesNothing) {
   EXPECT_FALSE(IsBetter(hierarchy, {3, 9e-3}, {3, 0}));
 }
 
-// The bounds y_0 >= 1 and y_0 <= -1 are best at y_0 = 0. There, y_0 is rounding, and the cost
-// 1 + y_0^2 is the same in double precision but for its last digit.
+// The bounds y_0 >= 1 and y_0 <= -1 are best at y_0 = 0. There, y_0 is
+// rounding, and the cost 1 + y_0^2 is the same in double precision but for its
+// last digit.
 TEST(CostOrder, RoundingAtACompromiseOfBoundsDecidesNothing) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Hierarchy hierarchy(2, {{0, 2}, {1, 0}});
@@ -170,8 +175,8 @@ TEST(CostOrder, RoundingAtACompromiseOfBoundsDecidesNothing) {
   }
 }
 
-// y_0 >= 1e4 is missed by 1e4 or by 1e-9 less. The cost changes by 2e-13 of itself, which is
-// rounding of its terms, though C y is 0.
+// y_0 >= 1e4 is missed by 1e4 or by 1e-9 less. The cost changes by 2e-13 of
+// itself, which is rounding of its terms, though C y is 0.
 TEST(CostOrder, RoundingOfTheTermsOfASlackDecidesNothing) {
   Hierarchy hierarchy(2, {{0, 1}, {1, 0}});
   InequalityBlock bound = hierarchy.AddInequalities(0, 1);
@@ -182,8 +187,8 @@ TEST(CostOrder, RoundingOfTheTermsOfASlackDecidesNothing) {
   EXPECT_FALSE(IsBetter(hierarchy, {0, 0}, {1e-3, 1}));
 }
 
-// The points differ in the nullspace of the levels above one that is drawn, so that these
-// levels have the same cost but for rounding.
+// The points differ in the nullspace of the levels above one that is drawn, so
+// that these levels have the same cost but for rounding.
 TEST(CostOrder, AgreesWithCostsInLongDouble) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -203,7 +208,8 @@ TEST(CostOrder, AgreesWithCostsInLongDouble) {
     for (int level = above; level < levels; ++level) {
       const long double cost = PreciseCost(hierarchy, level, y);
       const long double than = PreciseCost(hierarchy, level, other);
-      // Rounding of this order cannot decide, and what lies between is not tested.
+      // Rounding of this order cannot decide, and what lies between is not
+      // tested.
       if (std::abs(cost - than) <= 1e-6L * std::max(cost, than)) continue;
       EXPECT_EQ(IsBetter(hierarchy, ToVector(y), ToVector(other)), cost < than)
           << "seed " << seed << ", level " << level;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// DiagonalLevels: reflections of the rows of Q that eliminate variables, U' Q = T.
+// DiagonalLevels: reflections of the rows of Q that eliminate variables, U' Q =
+// T.
 #include <algorithm>
 #include <cmath>
 

@@ -36,8 +36,8 @@ DiagonalLevels::DiagonalLevels(int num_variables, int max_levels)
         &factor_, &reflection_, &direction_, &probe_}) {
     vector->resize(stride_);
   }
-  // Factors from 1 to 2. No two are equal, so that two rows that are exchanged change a
-  // sum of rows.
+  // Factors from 1 to 2. No two are equal, so that two rows that are exchanged
+  // change a sum of rows.
   constexpr double kGoldenRatio = 1.618033988749895;
   for (int i = 0; i < n_; ++i) probe_[i] = 1 + std::fmod(i * kGoldenRatio, 1);
   Clear();
@@ -77,8 +77,8 @@ void DiagonalLevels::Finish(const double* targets) {
   }
 }
 
-// Gives the free variables their positions, level by level from the last, and then
-// the fixed ones.
+// Gives the free variables their positions, level by level from the last, and
+// then the fixed ones.
 void DiagonalLevels::Arrange(const FixedVariables& variables) {
   const double usual = UsualWeight(variables);
   // Each level has two groups: the variables of unusual weight come first.
@@ -107,8 +107,8 @@ void DiagonalLevels::Arrange(const FixedVariables& variables) {
   for (int p = 0; p < n_; ++p) SetScale(p);
 }
 
-// Returns the weight that more than half of the first level's free variables have,
-// by a majority vote. If no weight has a majority, it returns one of the
+// Returns the weight that more than half of the first level's free variables
+// have, by a majority vote. If no weight has a majority, it returns one of the
 // weights.
 double DiagonalLevels::UsualWeight(const FixedVariables& variables) const {
   double weight = 0;
@@ -202,7 +202,8 @@ void DiagonalLevels::Project(const LexicographicFactorization& leading,
   Count(leading.rank() - fixed, free);
 }
 
-// Counts multiply-adds: one for each entry of `rows` rows, and kRowOverhead a row.
+// Counts multiply-adds: one for each entry of `rows` rows, and kRowOverhead a
+// row.
 void DiagonalLevels::Count(int rows, int columns) {
   multiply_adds_ +=
       static_cast<std::int64_t>(rows) * (columns + kernels::kRowOverhead);

@@ -16,9 +16,9 @@ namespace poise {
 /// 1/2 sum_j d_j^2 (y_j - t_j)^2 over its variables, subject to the leading
 /// levels, Q y = z, and to the optimum of the diagonal levels before c.
 ///
-/// The first level that has a variable determines it. So levels are not projected
-/// one by one. Instead, reflections combine the rows of Q, and eliminate the
-/// variables of the last level first:
+/// The first level that has a variable determines it. So levels are not
+/// projected one by one. Instead, reflections combine the rows of Q, and
+/// eliminate the variables of the last level first:
 ///     U' Q = [T_tt ... T_t1 T_t0]      (variables of level t, ..., 1, 0)
 ///            [         T_11 T_10]
 ///            [              T_00]
@@ -59,11 +59,11 @@ class DiagonalLevels {
   /// Only Nullity() is valid afterwards.
   void TieRows(const double* rows, int stride, int count);
 
-  /// Computes the y that minimises the levels in order, subject to Q y = z. The first
-  /// call after Clear(), Tie() or TieRows() factors the levels. Later calls update the
-  /// factors if the row space of Q has gained four directions at most, or has lost or
-  /// exchanged one. That takes a tenth of the work for each gain, and a quarter for a
-  /// loss. Otherwise they factor again.
+  /// Computes the y that minimises the levels in order, subject to Q y = z. The
+  /// first call after Clear(), Tie() or TieRows() factors the levels. Later
+  /// calls update the factors if the row space of Q has gained four directions
+  /// at most, or has lost or exchanged one. That takes a tenth of the work for
+  /// each gain, and a quarter for a loss. Otherwise they factor again.
   void Solve(const LexicographicFactorization& leading, double* y);
 
   /// Refines y by a correction dy with Q dy = `change`. If `to_minimum`, y + dy
@@ -97,9 +97,9 @@ class DiagonalLevels {
   /// `level`.
   int Nullity(int level) const;
 
-  /// Multiply-adds of Tie(), Solve(), Correct() and Dual() since construction, but for
-  /// what Solve() and Correct() do with known factors: that is part of the time of an
-  /// iteration (budget.h).
+  /// Multiply-adds of Tie(), Solve(), Correct() and Dual() since construction,
+  /// but for what Solve() and Correct() do with known factors: that is part of
+  /// the time of an iteration (budget.h).
   std::int64_t multiply_adds() const { return multiply_adds_; }
 
  private:
@@ -126,9 +126,9 @@ class DiagonalLevels {
     return l_.data() + static_cast<std::size_t>(row) * (row + 1) / 2;
   }
   void FindGradient(int position, const double* y);
-  /// After Tie(): whether the rows leave the first level's variables no freedom. The
-  /// other levels are eliminated from its rows, which are orthonormal. So T_00 is then an
-  /// orthogonal matrix.
+  /// After Tie(): whether the rows leave the first level's variables no
+  /// freedom. The other levels are eliminated from its rows, which are
+  /// orthonormal. So T_00 is then an orthogonal matrix.
   bool IsSquare() const {
     const Block& first = blocks_[0];
     return first.row_end - first.row_begin == first.end - first.begin;
@@ -193,8 +193,8 @@ class DiagonalLevels {
   AlignedDoubles z_, nu_;    ///< By row of U' Q.
   AlignedDoubles q_, l_;     ///< T_cc/d = L Q, by level; see L().
   AlignedDoubles scratch_, factor_;
-  /// By position: a direction by which the row spaces of T and Q differ, or in Dual()
-  /// the sum T' nu.
+  /// By position: a direction by which the row spaces of T and Q differ, or in
+  /// Dual() the sum T' nu.
   AlignedDoubles direction_;
   AlignedDoubles probe_;     ///< By row: factors of sums of rows.
   std::vector<int> column_;  ///< By position: Gather() copies this column.

@@ -82,8 +82,8 @@ class RandomDiagonalLevelsTest : public testing::TestWithParam<int> {
     optimum_ = SolveLexicographically(n_, levels_);
     diagonal_.Solve(leading_, y_.data());
   }
-  // Fixes some variables on the first level. Returns false if its rows depend on
-  // them.
+  // Fixes some variables on the first level. Returns false if its rows depend
+  // on them.
   bool FactorFixed() {
     LeastSquares first = levels_[0];
     for (int j = GetParam() % 3; j < n_; j += 2 + GetParam() % 5) {
@@ -95,8 +95,8 @@ class RandomDiagonalLevelsTest : public testing::TestWithParam<int> {
       AddRow(levels_[0], i, &leading_);
     }
     if (!leading_.FactorMerged(1)) {
-      // The least singular value is at most the independent part of any row, and
-      // FactorMerged() refuses parts below 1e-3.
+      // The least singular value is at most the independent part of any row,
+      // and FactorMerged() refuses parts below 1e-3.
       EXPECT_TRUE(first.A.rows() > n_ ||
                   JacobiSvd(first.A).sigma.minCoeff() < 1e-3);
       return false;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// DiagonalLevels: the minimum-norm problem of each level, T/d = L Q, and its multipliers.
+// DiagonalLevels: the minimum-norm problem of each level, T/d = L Q, and its
+// multipliers.
 #include <algorithm>
 #include <cmath>
 
@@ -26,8 +27,9 @@ void DiagonalLevels::FactorLevel(int level) {
   }
 }
 
-// Factors a row of T/d. Returns the part of its length that is independent of the
-// rows before it. A dependent row, which only rounding can cause, is set to zero.
+// Factors a row of T/d. Returns the part of its length that is independent of
+// the rows before it. A dependent row, which only rounding can cause, is set to
+// zero.
 double DiagonalLevels::FactorRow(int level, int row) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin;
@@ -81,8 +83,8 @@ bool DiagonalLevels::RoundsUsual() const {
 }
 
 // Minimises |x|^2, with x = d (step - ideal), subject to
-// (T/d) x = -T ideal - (T of the earlier levels) (their step). If T is orthogonal, x/d
-// is -T' T ideal.
+// (T/d) x = -T ideal - (T of the earlier levels) (their step). If T is
+// orthogonal, x/d is -T' T ideal.
 void DiagonalLevels::SolveLevel(int level) {
   const Block& block = blocks_[level];
   const int columns = block.end - block.begin, rest = num_free_ - block.end;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 
-// The part of DiagonalLevels that updates its factors when rows of the leading levels
-// were added or removed.
+// The part of DiagonalLevels that updates its factors when rows of the leading
+// levels were added or removed.
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +18,16 @@ using kernels::Dots;
 using kernels::Rotate;
 using kernels::SquaredNorm;
 
-// Most directions that an update adds. In robots, each takes a tenth of the work of another
-// factorisation. One that is removed takes a quarter, so only one is.
+// Most directions that an update adds. In robots, each takes a tenth of the
+// work of another factorisation. One that is removed takes a quarter, so only
+// one is.
 constexpr int kMaxAdded = 4;
 
 }  // namespace
 
-// Makes the row spaces of T and Q the same, if kMaxAdded directions are added at most, or
-// one is removed or exchanged. Returns false if that is not possible.
+// Makes the row spaces of T and Q the same, if kMaxAdded directions are added
+// at most, or one is removed or exchanged. Returns false if that is not
+// possible.
 bool DiagonalLevels::UpdateFactors(const LexicographicFactorization& leading) {
   for (int p = num_free_; p < n_; ++p) {
     if (!leading.variables().is_fixed(order_[p]) && !Release(p)) return false;
@@ -44,11 +46,12 @@ bool DiagonalLevels::UpdateFactors(const LexicographicFactorization& leading) {
   return HasRowSpaceOf(leading);
 }
 
-// Estimates whether another factorisation takes fewer multiply-adds than an update. An
-// update keeps the columns of all variables that were fixed since the last factorisation.
-// If the rows leave no freedom, a factorisation only eliminates the later levels. The
-// factors 5, 15 and 3 of an update are the passes over T for a direction that is added, for
-// one that is removed, and for the check at the end, counted in recorded ticks.
+// Estimates whether another factorisation takes fewer multiply-adds than an
+// update. An update keeps the columns of all variables that were fixed since
+// the last factorisation. If the rows leave no freedom, a factorisation only
+// eliminates the later levels. The factors 5, 15 and 3 of an update are the
+// passes over T for a direction that is added, for one that is removed, and for
+// the check at the end, counted in recorded ticks.
 bool DiagonalLevels::IsFactoringFaster(
     const LexicographicFactorization& leading, int added, int removed) const {
   constexpr double kOverhead = kernels::kRowOverhead;
@@ -64,20 +67,22 @@ bool DiagonalLevels::IsFactoringFaster(
   return elimination + orthogonalisation < update;
 }
 
-// Returns whether a sum of the rows of T is in the row space of Q, which has the same
-// rank. Of a difference by an angle a, such a sum shows nothing with a probability of about
-// kSameRowSpace / a. If it shows nothing, y is wrong, and its certificate fails.
+// Returns whether a sum of the rows of T is in the row space of Q, which has
+// the same rank. Of a difference by an angle a, such a sum shows nothing with a
+// probability of about kSameRowSpace / a. If it shows nothing, y is wrong, and
+// its certificate fails.
 bool DiagonalLevels::HasRowSpaceOf(const LexicographicFactorization& leading) {
   if (rank_ == num_free_) return true;  // Both are the whole space.
   FindSumOfT(true);
   return !SubtractProjectionOnQ(leading);
 }
 
-// Finds direction_, a unit vector in the row space of Q and orthogonal to that of T. It
-// returns false if there is none. If a row of Q is not in the row space of T, neither is
-// the sum of all rows with factors that are all different, except by chance. After
-// AppendDirection(), this sum is in the row space of T; so each further direction needs
-// another `power` of the factors. Powers of different positive numbers are independent.
+// Finds direction_, a unit vector in the row space of Q and orthogonal to that
+// of T. It returns false if there is none. If a row of Q is not in the row
+// space of T, neither is the sum of all rows with factors that are all
+// different, except by chance. After AppendDirection(), this sum is in the row
+// space of T; so each further direction needs another `power` of the factors.
+// Powers of different positive numbers are independent.
 bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading,
                                int power) {
   for (int p = 0; p < num_free_; ++p) {
@@ -93,8 +98,8 @@ bool DiagonalLevels::FindAdded(const LexicographicFactorization& leading,
   return Normalize() && SubtractProjectionOnT() && SubtractProjectionOnT();
 }
 
-// FindAdded() for the unit vector of position p. Returns false if it depends on the rows
-// of T, but for a part below kIndependentPart.
+// FindAdded() for the unit vector of position p. Returns false if it depends on
+// the rows of T, but for a part below kIndependentPart.
 bool DiagonalLevels::FindUnit(int p) {
   double squares = 0;
   for (int i = 0; i < rank_; ++i) {
@@ -109,22 +114,23 @@ bool DiagonalLevels::FindUnit(int p) {
   direction_[p] = 1;
   AddRows(t_.data(), stride_, rank_, z_.data(), num_free_, direction_.data());
   Count(rank_, num_free_);
-  // Where the first projection leaves little, the second one removes its rounding.
+  // Where the first projection leaves little, the second one removes its
+  // rounding.
   const double length = std::sqrt(1 - squares);
   return Normalize() &&
          (length >= tolerances::kReorthogonalize || SubtractProjectionOnT());
 }
 
-// Finds direction_, a unit vector in the row space of T and orthogonal to that of Q. It
-// returns false if there is none.
+// Finds direction_, a unit vector in the row space of T and orthogonal to that
+// of Q. It returns false if there is none.
 bool DiagonalLevels::FindRemoved(const LexicographicFactorization& leading) {
   FindSumOfT(false);
   return SubtractProjectionOnQ(leading) && SubtractProjectionOnQ(leading);
 }
 
-// Computes direction_ as a sum of the rows of T, of unit length. The signs of the factors
-// alternate: T may have rows of Q, and FindAdded() has put the sum of the rows of Q into
-// both row spaces.
+// Computes direction_ as a sum of the rows of T, of unit length. The signs of
+// the factors alternate: T may have rows of Q, and FindAdded() has put the sum
+// of the rows of Q into both row spaces.
 void DiagonalLevels::FindSumOfT(bool is_reversed) {
   for (int i = 0; i < rank_; ++i) {
     const double factor = probe_[is_reversed ? n_ - 1 - i : i];
@@ -136,8 +142,8 @@ void DiagonalLevels::FindSumOfT(bool is_reversed) {
   Normalize();
 }
 
-// Subtracts the projection on the rows of T from direction_, and divides it by its
-// length. Returns false if this is rounding.
+// Subtracts the projection on the rows of T from direction_, and divides it by
+// its length. Returns false if this is rounding.
 bool DiagonalLevels::SubtractProjectionOnT() {
   Dots(t_.data(), stride_, rank_, direction_.data(), num_free_, z_.data());
   for (int i = 0; i < rank_; ++i) z_[i] = -z_[i];
@@ -164,11 +170,11 @@ bool DiagonalLevels::Normalize() {
   return true;
 }
 
-// Adds a column and a unit row for a variable that is no longer fixed. If its unit
-// vector is not in the row space of Q, UpdateFactors() removes a direction afterwards.
-// Returns false if the variable is not of the first level, whose columns come last. A
-// variable of unusual weight takes the place of the first one of the usual weight, which
-// moves to the end.
+// Adds a column and a unit row for a variable that is no longer fixed. If its
+// unit vector is not in the row space of Q, UpdateFactors() removes a direction
+// afterwards. Returns false if the variable is not of the first level, whose
+// columns come last. A variable of unusual weight takes the place of the first
+// one of the usual weight, which moves to the end.
 bool DiagonalLevels::Release(int p) {
   Block& first = blocks_[0];
   const int variable = order_[p];
@@ -193,8 +199,8 @@ bool DiagonalLevels::Release(int p) {
   return true;
 }
 
-// Moves a column of the rows from `first` on to `end`. The row `added` gets its only
-// entry in the column that is now zero.
+// Moves a column of the rows from `first` on to `end`. The row `added` gets its
+// only entry in the column that is now zero.
 void DiagonalLevels::InsertUnit(int first, int added, int column, int end,
                                 double* rows) {
   for (int i = first; i < added; ++i) {
@@ -217,8 +223,9 @@ bool DiagonalLevels::HasSquareLaterLevels() const {
   return true;
 }
 
-// Appends direction_, which is orthogonal to the rows of T. The rows of the later
-// levels eliminate its columns of these levels. The rest is a row of T_00.
+// Appends direction_, which is orthogonal to the rows of T. The rows of the
+// later levels eliminate its columns of these levels. The rest is a row of
+// T_00.
 bool DiagonalLevels::AppendDirection() {
   if (rank_ == num_free_) return false;
   Block& first = blocks_[0];
@@ -239,10 +246,10 @@ bool DiagonalLevels::AppendDirection() {
   return IsSquare() || FactorRow(0, rank_ - 1) >= tolerances::kIndependentPart;
 }
 
-// Removes direction_, which is in the row space of T. With u = T direction, rotations of
-// neighbouring rows of T_00 make u zero but in the last of these rows. Rotations with the
-// rows of the later levels, from the last to the first, then make this row direction_
-// itself, and it is dropped.
+// Removes direction_, which is in the row space of T. With u = T direction,
+// rotations of neighbouring rows of T_00 make u zero but in the last of these
+// rows. Rotations with the rows of the later levels, from the last to the
+// first, then make this row direction_ itself, and it is dropped.
 bool DiagonalLevels::RemoveDirection() {
   Block& first = blocks_[0];
   // Without freedom, T_00 has no factors that could be updated.
@@ -280,9 +287,9 @@ bool DiagonalLevels::RemoveDirection() {
   return true;
 }
 
-// Rotates the rows `row` and row + 1 of L: (next, this) = (c next + s this, c this - s
-// next). Row `row` then has one entry too many. A rotation of two columns of L, and of
-// two rows of its Q, eliminates it.
+// Rotates the rows `row` and row + 1 of L: (next, this) = (c next + s this, c
+// this - s next). Row `row` then has one entry too many. A rotation of two
+// columns of L, and of two rows of its Q, eliminates it.
 void DiagonalLevels::RotateFactor(int row, double c, double s) {
   const Block& first = blocks_[0];
   const int i = row - first.row_begin, columns = first.end - first.begin;

@@ -38,7 +38,8 @@ void Add(const LeadingRow& row, LexicographicFactorization* leading) {
   leading->SetRow(a, row.r.data(), 0, static_cast<int>(row.r.size()), 1);
 }
 
-// Factors the first level as a merged one. Returns false if its rows depend on others.
+// Factors the first level as a merged one. Returns false if its rows depend on
+// others.
 bool FactorMerged(const std::vector<LeadingRow>& rows,
                   LexicographicFactorization* leading) {
   leading->Truncate(0);
@@ -54,8 +55,8 @@ bool FactorMerged(const std::vector<LeadingRow>& rows,
   return leading->num_rows() > 0 && leading->FactorMerged(1);
 }
 
-// Factors both levels. Rows of the first level that have one variable fix it, if no row
-// of that level depends on others.
+// Factors both levels. Rows of the first level that have one variable fix it,
+// if no row of that level depends on others.
 void Factor(const std::vector<LeadingRow>& rows,
             LexicographicFactorization* leading) {
   const bool is_merged = FactorMerged(rows, leading);
@@ -69,8 +70,9 @@ void Factor(const std::vector<LeadingRow>& rows,
   }
 }
 
-// Returns random rows: rows of one variable, of all, and rows that depend on others,
-// exactly or but for 1e-8, as rows of the two feet do. A third of them is in use.
+// Returns random rows: rows of one variable, of all, and rows that depend on
+// others, exactly or but for 1e-8, as rows of the two feet do. A third of them
+// is in use.
 std::vector<LeadingRow> MakeRows(int n, int count, std::mt19937* random) {
   const auto below = [&](int bound) {
     return static_cast<int>((*random)() % static_cast<unsigned>(bound));
@@ -99,9 +101,9 @@ std::vector<LeadingRow> MakeRows(int n, int count, std::mt19937* random) {
   return rows;
 }
 
-// Largest amplification of rounding: a level's equations are those columns of Q that no
-// earlier level determines, divided by the roots of the weights. `ratio` is the largest
-// ratio of two roots.
+// Largest amplification of rounding: a level's equations are those columns of Q
+// that no earlier level determines, divided by the roots of the weights.
+// `ratio` is the largest ratio of two roots.
 double Condition(const LexicographicFactorization& leading, int n,
                  const DiagonalLevels& levels, double ratio) {
   const Eigen::MatrixXd Q = Basis(leading, n);
@@ -127,8 +129,8 @@ void ExpectEqual(const LexicographicFactorization& leading, double ratio,
   const auto n = static_cast<int>(y.size());
   const double size = 10 + expected.lpNorm<Eigen::Infinity>();
   const double condition = Condition(leading, n, *fresh, ratio);
-  // Ten: the largest error that was seen is seven times the rounding. The factors may be
-  // those of a row space that differs by 1e-13.
+  // Ten: the largest error that was seen is seven times the rounding. The
+  // factors may be those of a row space that differs by 1e-13.
   EXPECT_LE((y - expected).norm(), Rounding(10 * size, n, condition));
   for (int level = 0; level < fresh->num_levels(); ++level) {
     EXPECT_EQ(kept->Nullity(level), fresh->Nullity(level)) << level;
@@ -141,8 +143,8 @@ void ExpectEqual(const LexicographicFactorization& leading, double ratio,
           (k == 0 ? kept : fresh)
               ->Dual(leading, level, on_leading[k].data(), left[k].data());
     }
-    // The gradient has rounding of y. A gradient that is rounding may be zero on one
-    // side only.
+    // The gradient has rounding of y. A gradient that is rounding may be zero
+    // on one side only.
     const double tolerance = Rounding(
         10 * (100 * size + std::max(terms[0], terms[1])), n, condition);
     EXPECT_LE((on_leading[0] - on_leading[1]).norm(), tolerance) << level;
@@ -152,8 +154,8 @@ void ExpectEqual(const LexicographicFactorization& leading, double ratio,
 
 class DiagonalUpdateTest : public testing::TestWithParam<int> {
  protected:
-  // Levels of random weights and targets; on a third of the seeds, some weights are
-  // smaller by 1e-6, as those of contact forces.
+  // Levels of random weights and targets; on a third of the seeds, some weights
+  // are smaller by 1e-6, as those of contact forces.
   void Fill(DiagonalLevels* diagonal) const {
     std::mt19937 random(GetParam());
     const auto below = [&](int bound) {
@@ -184,8 +186,8 @@ class DiagonalUpdateTest : public testing::TestWithParam<int> {
     kept->Solve(leading_, y.data());
     Fill(&fresh);
     fresh.Solve(leading_, expected.data());
-    // Add() adds up the weights of a variable, so that they range from 1 to 100 or from
-    // 1e-6 to 100.
+    // Add() adds up the weights of a variable, so that they range from 1 to 100
+    // or from 1e-6 to 100.
     ExpectEqual(leading_, GetParam() % 3 == 0 ? 1e4 : 10, kept, y, &fresh,
                 expected);
   }
@@ -226,8 +228,8 @@ TEST_P(DiagonalUpdateTest, AgreesWithNewFactorsAfterSeveralChanges) {
   }
 }
 
-// 24 rows of 62 variables, as in a hard push: postures, and twelve forces of small
-// weights. Six variables, those of the base, have no target.
+// 24 rows of 62 variables, as in a hard push: postures, and twelve forces of
+// small weights. Six variables, those of the base, have no target.
 class LargeDiagonalUpdateTest : public testing::Test {
  protected:
   static constexpr int kNumVariables = 62, kNumRows = 24;
@@ -261,9 +263,9 @@ class LargeDiagonalUpdateTest : public testing::Test {
     row.r.normalize();
     return row;
   }
-  // Adds rows and removes them again, or the other way round. Solve() then agrees with new
-  // factors. If one row has changed or rows were added, it takes less work: the factors have
-  // been updated.
+  // Adds rows and removes them again, or the other way round. Solve() then
+  // agrees with new factors. If one row has changed or rows were added, it
+  // takes less work: the factors have been updated.
   void ExpectUpdate(int first, int count = 1) {
     Eigen::VectorXd y(kNumVariables), expected(kNumVariables);
     for (int twice = 0; twice < 2; ++twice) {
@@ -312,14 +314,15 @@ TEST_F(LargeDiagonalUpdateTest, FollowsARowThatNearlyDependsOnOthers) {
   }
 }
 
-// The first level's new row replaces one of the second level, which gets deficient.
+// The first level's new row replaces one of the second level, which gets
+// deficient.
 TEST_F(LargeDiagonalUpdateTest, FollowsARowThatReplacesAnother) {
   for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
   rows_.push_back(NearlyDependent(1e-8, 1));
   rows_.push_back(rows_.back());
   rows_.back().level = 0;
-  // A remainder of 1e-12 counts as rounding: the rows are taken as dependent. But the
-  // remainder of the new row has another direction by a ten-thousandth.
+  // A remainder of 1e-12 counts as rounding: the rows are taken as dependent.
+  // But the remainder of the new row has another direction by a ten-thousandth.
   rows_.back().r += 1e-12 * Random().r;
   rows_.back().is_used = false;
   ExpectUpdate(kNumRows + 1);
@@ -358,10 +361,11 @@ TEST_F(LargeDiagonalUpdateTest, FollowsSeveralVariablesThatAreFixed) {
   for (const int count : {2, 3, 4}) ExpectUpdate(kNumRows, count);
 }
 
-// Variables are fixed one after the other, until the rows leave no freedom, and then
-// released, one by one. An update keeps the columns of all fixed variables, so that new
-// factors take less work from some point on. The estimate that decides is not exact, and a
-// failed update is in vain: a quarter more.
+// Variables are fixed one after the other, until the rows leave no freedom, and
+// then released, one by one. An update keeps the columns of all fixed
+// variables, so that new factors take less work from some point on. The
+// estimate that decides is not exact, and a failed update is in vain: a quarter
+// more.
 TEST_F(LargeDiagonalUpdateTest, NeverTakesMuchMoreWorkThanNewFactors) {
   for (int i = 0; i < kNumRows; ++i) rows_.push_back(Random());
   for (int j = 6; j < 6 + kNumVariables - kNumRows; ++j) {
@@ -407,8 +411,9 @@ TEST_F(LargeDiagonalUpdateTest, FollowsWithSeveralLaterLevels) {
   ExpectUpdate(7);
 }
 
-// The second row space has the difference of two vectors of the first one. A sum of its
-// rows with equal factors does not change, but for the sign, if the two are exchanged.
+// The second row space has the difference of two vectors of the first one. A
+// sum of its rows with equal factors does not change, but for the sign, if the
+// two are exchanged.
 TEST(DiagonalUpdate, SeesThatTwoDirectionsAreExchanged) {
   LexicographicFactorization leading(3, 2, 2);
   DiagonalLevels kept(3, 1), fresh(3, 1);
@@ -433,8 +438,8 @@ TEST(DiagonalUpdate, SeesThatTwoDirectionsAreExchanged) {
   }
 }
 
-// Only the first row has the variable of the last level. Without this row, the last
-// level has no row.
+// Only the first row has the variable of the last level. Without this row, the
+// last level has no row.
 TEST(DiagonalUpdate, FactorsAgainIfALaterLevelLosesItsRow) {
   LexicographicFactorization leading(3, 2, 2);
   DiagonalLevels kept(3, 1), fresh(3, 1);

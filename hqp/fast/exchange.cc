@@ -11,14 +11,15 @@
 
 namespace poise {
 
-// Returns the row that a blocking row replaces, or no row. The blocking row r depends on
-// rows of the working set, r = sum_a f_a r_a. If it is added with the multiplier t, the
-// multiplier of row a becomes m_a - t f_a, where f_a counts towards the bounds. The first
-// one that becomes zero is removed. That takes one iteration instead of two, and the rows
-// of the working set stay independent (Ferreau, Bock, Diehl 2008, section 3.3). The row is
-// added without an exchange if that t is not infinitesimal on all levels of these rows, or
-// if one of the levels is deficient: the factors of its rows are not unique.
-// pre: y and the multipliers are those at the time when the row blocks.
+// Returns the row that a blocking row replaces, or no row. The blocking row r
+// depends on rows of the working set, r = sum_a f_a r_a. If it is added with
+// the multiplier t, the multiplier of row a becomes m_a - t f_a, where f_a
+// counts towards the bounds. The first one that becomes zero is removed. That
+// takes one iteration instead of two, and the rows of the working set stay
+// independent (Ferreau, Bock, Diehl 2008, section 3.3). The row is added
+// without an exchange if that t is not infinitesimal on all levels of these
+// rows, or if one of the levels is deficient: the factors of its rows are not
+// unique. pre: y and the multipliers are those at the time when the row blocks.
 RowIndex ParametricSearch::Exchange(const Hierarchy& hierarchy,
                                     const Blocking& added, int size,
                                     const Change& last, const Sides& side,
@@ -44,7 +45,8 @@ RowIndex ParametricSearch::Exchange(const Hierarchy& hierarchy,
     for (int k = 0; k < size; ++k) {
       scratch_[k] = is_positive ? start[k] / factors[a] : 0;
     }
-    // If two multipliers vanish together, the one with the larger factor is taken.
+    // If two multipliers vanish together, the one with the larger factor is
+    // taken.
     if (removed.level < 0 ||
         infinitesimals::IsLess(scratch_.data(), least.data(), size) ||
         (factors[a] > factor &&
@@ -75,10 +77,11 @@ RowIndex ParametricSearch::Exchange(const Hierarchy& hierarchy,
   return removed;
 }
 
-// Finds the factors f_a, by row of the working set: r = sum_a f_a r_a for a blocking row r,
-// where all rows have unit length and count towards their bounds. Factors that are rounding
-// are zero. Returns null if the sum differs from r by more than rounding of its terms: an
-// exchange would then let y violate the row that is removed.
+// Finds the factors f_a, by row of the working set: r = sum_a f_a r_a for a
+// blocking row r, where all rows have unit length and count towards their
+// bounds. Factors that are rounding are zero. Returns null if the sum differs
+// from r by more than rounding of its terms: an exchange would then let y
+// violate the row that is removed.
 const double* ParametricSearch::FindFactors(const Hierarchy& hierarchy,
                                             const Blocking& added,
                                             const Sides& side,

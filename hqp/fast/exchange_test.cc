@@ -17,8 +17,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-13;  // A few operations on numbers near 1.
 
-// y_2 = 0, x <= 1, y_1 <= 1 and lower <= x + y_1 + y_2 <= upper, where x is y_0 or, if it is
-// mirrored, -y_0. Below them, a target for x and y_1, which are both beyond their bounds.
+// y_2 = 0, x <= 1, y_1 <= 1 and lower <= x + y_1 + y_2 <= upper, where x is y_0
+// or, if it is mirrored, -y_0. Below them, a target for x and y_1, which are
+// both beyond their bounds.
 class ExchangeTest : public testing::TestWithParam<bool> {
  protected:
   Hierarchy At(double upper, double target_0, double target_1,
@@ -45,9 +46,10 @@ class ExchangeTest : public testing::TestWithParam<bool> {
 };
 INSTANTIATE_TEST_SUITE_P(Mirrored, ExchangeTest, testing::Bool());
 
-// y is at the corner x = y_1 = 1, and violates the new bound of the sum, which blocks at
-// once. The multipliers of x and y_1 are twice the distances to the target. The bound of the
-// nearer target is replaced, and y goes on along the other one.
+// y is at the corner x = y_1 = 1, and violates the new bound of the sum, which
+// blocks at once. The multipliers of x and y_1 are twice the distances to the
+// target. The bound of the nearer target is replaced, and y goes on along the
+// other one.
 TEST_P(ExchangeTest, ReplacesTheRowWhoseMultiplierVanishesFirst) {
   for (const bool x_is_nearer : {true, false}) {
     SCOPED_TRACE(x_is_nearer);
@@ -69,8 +71,8 @@ TEST_P(ExchangeTest, ReplacesTheRowWhoseMultiplierVanishesFirst) {
   }
 }
 
-// After the exchange, the multiplier of x is 6 - 4 = 2. It decreases by twice the way of
-// y_1, and is zero at x = 1, y_1 = 0. From then on, both decrease.
+// After the exchange, the multiplier of x is 6 - 4 = 2. It decreases by twice
+// the way of y_1, and is zero at x = 1, y_1 = 0. From then on, both decrease.
 TEST_P(ExchangeTest, ReducesTheOtherMultipliers) {
   search_.Begin(At(3, 4, 3));
   const Hierarchy end = At(0, 4, 3);
@@ -83,9 +85,9 @@ TEST_P(ExchangeTest, ReducesTheOtherMultipliers) {
   EXPECT_NEAR(search_.y()[1], -0.5, 10 * kTolerance);
 }
 
-// The multiplier of x is 4, and the sum gets it. At x = 0.5, where the path would end, it is
-// -0.4, if the sum is not divided by its length. So it is zero, and the sum is removed, after
-// 4 / 4.4 of the path.
+// The multiplier of x is 4, and the sum gets it. At x = 0.5, where the path
+// would end, it is -0.4, if the sum is not divided by its length. So it is
+// zero, and the sum is removed, after 4 / 4.4 of the path.
 TEST_P(ExchangeTest, GivesTheAddedRowItsMultiplier) {
   search_.Begin(At(3, 3, 4));
   const Hierarchy end = At(1.5, 0.3, 4);
@@ -106,9 +108,10 @@ TEST_P(ExchangeTest, AddsARowThatCannotBeMet) {
   EXPECT_EQ(search_.side()[0][2], Side::kLower);
 }
 
-// y_0 <= 1 and y_1 <= 1 on two levels, and below them y_0 + y_1 = 2, which both meet.
-// The row y_0 - y_1 >= bound of the first level depends on the row of the third level and
-// on one of the bounds, so that y_1's bound is replaced; the last level wants y_1 = 3.
+// y_0 <= 1 and y_1 <= 1 on two levels, and below them y_0 + y_1 = 2, which both
+// meet. The row y_0 - y_1 >= bound of the first level depends on the row of the
+// third level and on one of the bounds, so that y_1's bound is replaced; the
+// last level wants y_1 = 3.
 TEST(Exchange, DependsOnRowsOfALowerLevel) {
   const std::vector<LevelCapacity> capacity{{0, 3}, {1, 0}, {2, 0}};
   const auto at = [&](double lower) {
@@ -137,9 +140,9 @@ TEST(Exchange, DependsOnRowsOfALowerLevel) {
   EXPECT_NEAR((search.y() - Eigen::Vector2d(1.5, 0.5)).norm(), 0, kTolerance);
 }
 
-// y_1 <= 1, and part y_0 + y_1 <= bound, which goes from 2 to 0.9999. Then y_1 wants 3, and
-// y_0 wants 0. The second row is nearly the same as the first one, but independent of it. So
-// both stay active, and y_0 misses its target.
+// y_1 <= 1, and part y_0 + y_1 <= bound, which goes from 2 to 0.9999. Then y_1
+// wants 3, and y_0 wants 0. The second row is nearly the same as the first one,
+// but independent of it. So both stay active, and y_0 misses its target.
 TEST(Exchange, IsNotMadeWithANearlyDependentRow) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {1, 0}, {2, 0}};
   for (const double part : {2e-3, 9e-4, 1e-5}) {
@@ -168,9 +171,9 @@ TEST(Exchange, IsNotMadeWithANearlyDependentRow) {
   }
 }
 
-// The first level has two rows, y_0 + y_1 / 2 = 3 and y_0 + y_1 / 2 = 0, so that its optimum,
-// 1.5, leaves residuals. The factors of its two rows are not unique, so that no row is replaced.
-// The path finds the optimum all the same.
+// The first level has two rows, y_0 + y_1 / 2 = 3 and y_0 + y_1 / 2 = 0, so
+// that its optimum, 1.5, leaves residuals. The factors of its two rows are not
+// unique, so that no row is replaced. The path finds the optimum all the same.
 TEST(Exchange, IsNotMadeWithADeficientLevel) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 2}, {2, 0}};
   const auto at = [&](double upper) {

@@ -9,8 +9,8 @@ namespace poise {
 
 /// An order of the variables, in which those that one row alone determines, the
 /// fixed ones, come last. The e-th fixed variable has column n - 1 - e, and the
-/// free variables have the columns before. So a matrix over the free variables is
-/// a leading block, and it changes by one column when a variable is fixed or
+/// free variables have the columns before. So a matrix over the free variables
+/// is a leading block, and it changes by one column when a variable is fixed or
 /// released.
 class FixedVariables {
  public:
@@ -46,8 +46,8 @@ class FixedVariables {
     return column;
   }
 
-  /// Releases the e-th fixed variable. The last fixed one gets the number e. The
-  /// released variable gets the last free column.
+  /// Releases the e-th fixed variable. The last fixed one gets the number e.
+  /// The released variable gets the last free column.
   void Release(int e) {
     SwapColumns(fixed_column(e), fixed_column(size_ - 1));
     --size_;

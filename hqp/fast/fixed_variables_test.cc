@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kVariables = 9;
 
-// The order by another rule: a list of the fixed variables, and a set of columns.
+// The order by another rule: a list of the fixed variables, and a set of
+// columns.
 TEST(FixedVariables, KeepsFreeVariablesBeforeFixedOnes) {
   std::mt19937 random(1);
   FixedVariables variables(kVariables);

@@ -22,10 +22,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Thirteen boxes |y_j| <= 1, and a target for each y_j, plus coupling_ times the others. The
-// targets move from 100 + 10 j to -100, so that y_j leaves its upper bound in the order of j
-// and reaches the lower one before the next y_j leaves. With sign_ = -1, all numbers have
-// the other sign.
+// Thirteen boxes |y_j| <= 1, and a target for each y_j, plus coupling_ times
+// the others. The targets move from 100 + 10 j to -100, so that y_j leaves its
+// upper bound in the order of j and reaches the lower one before the next y_j
+// leaves. With sign_ = -1, all numbers have the other sign.
 class FlipTest : public testing::Test {
  protected:
   static constexpr int kVariables = 13;
@@ -64,9 +64,9 @@ class FlipTest : public testing::Test {
   PathBetween search_{kVariables, capacity_};
 };
 
-// Two iterations take the first row to its other bound. Two more flip one row each, and two
-// flip four: a row and three ahead. One flips the last two. Without flips, these would be 26
-// iterations.
+// Two iterations take the first row to its other bound. Two more flip one row
+// each, and two flip four: a row and three ahead. One flips the last two.
+// Without flips, these would be 26 iterations.
 TEST_F(FlipTest, MovesRowsToTheirOtherBound) {
   for (const double sign : {1, -1}) {
     sign_ = sign;
@@ -99,9 +99,9 @@ TEST_F(FlipTest, PredictsNoFlipsFromOtherRowsThatBlock) {
   EXPECT_NEAR(search_.y()[1], 0.5, tolerance_);
 }
 
-// All y_j but the first stay between their bounds. The second row is flipped and removed
-// again. After that, rows are only removed, and the fourth removal in a row removes eight
-// more. The fifth removes the last row.
+// All y_j but the first stay between their bounds. The second row is flipped
+// and removed again. After that, rows are only removed, and the fourth removal
+// in a row removes eight more. The fifth removes the last row.
 TEST_F(FlipTest, RemovesARowThatWasFlippedByMistake) {
   end_.tail(kVariables - 1) *= 0.005;
   EXPECT_EQ(Follow(), 2 + 1 + 4);
@@ -110,8 +110,8 @@ TEST_F(FlipTest, RemovesARowThatWasFlippedByMistake) {
   EXPECT_NEAR((search_.y() - y).norm(), 0, tolerance_);
 }
 
-// The first row goes to its other bound, so that the second one would be flipped if it had
-// a lower bound.
+// The first row goes to its other bound, so that the second one would be
+// flipped if it had a lower bound.
 TEST_F(FlipTest, FlipsOnlyRowsWithTwoBounds) {
   end_.tail(kVariables - 2) = start_.tail(kVariables - 2);
   for (const double sign : {1, -1}) {
@@ -133,8 +133,8 @@ TEST_F(FlipTest, FlipsOnlyRowsOfOneVariable) {
   EXPECT_NEAR(search_.y()[1], -1.5, tolerance_);
 }
 
-// Each y_j depends on the others, so that some flips are wrong. The optimum is that of a
-// search without a path.
+// Each y_j depends on the others, so that some flips are wrong. The optimum is
+// that of a search without a path.
 TEST_F(FlipTest, ArrivesAtTheOptimum) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -160,8 +160,8 @@ TEST_F(FlipTest, ArrivesAtTheOptimum) {
   EXPECT_GT(arrived, 190);
 }
 
-// Three rows go to their other bounds. An update would take each of them out of the factors
-// and put it back.
+// Three rows go to their other bounds. An update would take each of them out of
+// the factors and put it back.
 TEST_F(FlipTest, KeepsTheFactors) {
   coupling_.setConstant(0.1);
   const Hierarchy hierarchy = At(start_);

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-/// These functions compute with numbers m_0 + m_1 e + m_2 e^2 + ..., where e > 0 is
-/// infinitesimal. The first `size` coefficients are stored. A hierarchy is the limit of
-/// one least-squares problem in which level k has the weight e^k. So the multipliers of
-/// a row on all levels are the coefficients of one such number.
+/// These functions compute with numbers m_0 + m_1 e + m_2 e^2 + ..., where e >
+/// 0 is infinitesimal. The first `size` coefficients are stored. A hierarchy is
+/// the limit of one least-squares problem in which level k has the weight e^k.
+/// So the multipliers of a row on all levels are the coefficients of one such
+/// number.
 namespace poise::infinitesimals {
 
-/// A sum below this is zero, relative to its largest term: the rounding of a division
-/// and of ten additions, times ten.
+/// A sum below this is zero, relative to its largest term: the rounding of a
+/// division and of ten additions, times ten.
 constexpr double kRounding = 1e-14;
 
 /// Returns the sign of the first coefficient that is not zero, or 0.
@@ -26,9 +27,8 @@ inline bool IsLess(const double* a, const double* b, int size) {
   return std::lexicographical_compare(a, a + size, b, b + size);
 }
 
-/// Computes the time t at which a number that is m at t = 0 and `end` at t = 1, and
-/// linear in t, is zero: t = m / (m - end).
-/// pre: m >= 0 > end.
+/// Computes the time t at which a number that is m at t = 0 and `end` at t = 1,
+/// and linear in t, is zero: t = m / (m - end). pre: m >= 0 > end.
 /// @param rest  memory for `size` numbers.
 inline void FindZero(const double* m, const double* end, int size, double* rest,
                      double* t) {

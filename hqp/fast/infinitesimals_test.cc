@@ -60,10 +60,10 @@ TEST(Infinitesimals, OrdersNumbersAsTheirValues) {
   }
 }
 
-// The time of the zero by division of the values. The coefficients that are left out
-// have the order kSize - lowest, and each is below 19 times the sum of those before: the
-// numerators and the other coefficients of the denominator are at most 18. So four of
-// them add up to less than 18 * 19^4 = 2.3e6.
+// The time of the zero by division of the values. The coefficients that are
+// left out have the order kSize - lowest, and each is below 19 times the sum of
+// those before: the numerators and the other coefficients of the denominator
+// are at most 18. So four of them add up to less than 18 * 19^4 = 2.3e6.
 TEST(Infinitesimals, FindsTheZeroAtTheQuotientOfTheValues) {
   DrawNumber draw(2);
   for (int i = 0; i < 2000; ++i) {
@@ -83,7 +83,8 @@ TEST(Infinitesimals, FindsTheZeroAtTheQuotientOfTheValues) {
   }
 }
 
-// At the time of its zero a number is zero in all coefficients that the time has.
+// At the time of its zero a number is zero in all coefficients that the time
+// has.
 TEST(Infinitesimals, ApproachesZeroAtTheTimeOfTheZero) {
   DrawNumber draw(3);
   for (int i = 0; i < 2000; ++i) {
@@ -91,15 +92,16 @@ TEST(Infinitesimals, ApproachesZeroAtTheTimeOfTheZero) {
     Number rest, t, now = m;
     FindZero(m.data(), end.data(), kSize, rest.data(), t.data());
     Approach(t.data(), end.data(), kSize, now.data());
-    // A few eps of the terms: coefficient k of t is below 19^k, times at most 18.
+    // A few eps of the terms: coefficient k of t is below 19^k, times at
+    // most 18.
     for (int k = 0; k < kSize; ++k) {
       EXPECT_NEAR(now[k], 0, 1e-15 * std::pow(19, k + 1)) << k;
     }
   }
 }
 
-// The coefficients are those of a product of polynomials; whole numbers and quarters
-// are exact. One time in three is a number without infinitesimal part.
+// The coefficients are those of a product of polynomials; whole numbers and
+// quarters are exact. One time in three is a number without infinitesimal part.
 TEST(Infinitesimals, ApproachesLinearlyInTime) {
   DrawNumber draw(4);
   for (int i = 0; i < 2000; ++i) {

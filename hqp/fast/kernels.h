@@ -7,8 +7,8 @@
 
 /// The inner loops of the fast solver, on rows that lie `stride` apart: on the
 /// first `count` of them, or on those with `count` given indices. Most loops
-/// process four rows at a time, in vectors of four. The loader selects the version
-/// for the processor.
+/// process four rows at a time, in vectors of four. The loader selects the
+/// version for the processor.
 namespace poise::kernels {
 
 /// A row takes about as much time as this many more multiply-adds.
@@ -53,7 +53,8 @@ void AddToRows(double* rows, int stride, int count, const double* factor,
 void AddToRows(double* rows, int stride, const int* index, int count,
                const double* factor, const double* x, int n);
 
-/// out_j = x_j / divisor. `out` may be `x`. More exact than Scale(), and eight times slower.
+/// out_j = x_j / divisor. `out` may be `x`. More exact than Scale(), and eight
+/// times slower.
 void Divide(const double* x, double divisor, int n, double* out);
 
 /// out = factor x. `out` may be `x`.
@@ -87,9 +88,9 @@ inline void RotatePair(double c, double s, double* x) {
   x[1] = c * second - s * first;
 }
 
-/// Returns the length of (x, y), faster than std::hypot(). A square that underflows, below
-/// 1e-308, is less than rounding of a sum above 1e-280. For smaller or infinite sums, this
-/// function calls std::hypot().
+/// Returns the length of (x, y), faster than std::hypot(). A square that
+/// underflows, below 1e-308, is less than rounding of a sum above 1e-280. For
+/// smaller or infinite sums, this function calls std::hypot().
 inline double Length(double x, double y) {
   constexpr double kLeast = 1e-280, kMost = 1e280;
   const double squares = x * x + y * y;

@@ -58,7 +58,8 @@ TEST_F(KernelsTest, DotsAreTheSumsOfProducts) {
 }
 
 // With indices, a kernel does the same as without on copies of these rows, and
-// changes no other row. Every second row is left out, and the order is reversed.
+// changes no other row. Every second row is left out, and the order is
+// reversed.
 TEST_F(KernelsTest, IndicesChooseRows) {
   ForAllSizes([&](int rows, int n) {
     std::vector<int> index;
@@ -95,8 +96,8 @@ TEST_F(KernelsTest, IndicesChooseRows) {
   });
 }
 
-// Entries outside a row's span do not count, whatever they are. Neighbouring rows with the
-// same span share a loop.
+// Entries outside a row's span do not count, whatever they are. Neighbouring
+// rows with the same span share a loop.
 TEST_F(KernelsTest, SpansLimitTheProductsAndSums) {
   for (const int num_same : {1, 2, 5}) {
     ForAllSizes([&](int rows, int n) {
@@ -207,8 +208,9 @@ TEST_F(KernelsTest, DotWithSizeIsTheDotAndTheSumOfMagnitudes) {
   });
 }
 
-// A product with the divisor is the dividend, but for half a unit in the last place of the
-// quotient and of the product. The same holds for the quotient of such a product, in place.
+// A product with the divisor is the dividend, but for half a unit in the last
+// place of the quotient and of the product. The same holds for the quotient of
+// such a product, in place.
 TEST_F(KernelsTest, DivideIsTheInverseOfMultiplication) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   for (const double divisor : {3.0, -0.7, 1e-9, 4.1e12}) {
@@ -229,8 +231,8 @@ TEST_F(KernelsTest, DivideIsTheInverseOfMultiplication) {
   }
 }
 
-// The squared length of all rows is the sum over the columns. A column alone is checked with
-// a matrix that has no other one.
+// The squared length of all rows is the sum over the columns. A column alone is
+// checked with a matrix that has no other one.
 TEST_F(KernelsTest, ColumnSquaresSumToTheSquaredLengthOfTheRows) {
   ForAllSizes([&](int rows, int n) {
     std::vector<double> sums(kStride, kUntouched);
@@ -263,8 +265,8 @@ TEST_F(KernelsTest, MultiplyEntriesLeavesOutSmallOnes) {
   }
 }
 
-// A vector scaled by a and the vector itself add up to the vector scaled by 1 + a, here in
-// place.
+// A vector scaled by a and the vector itself add up to the vector scaled by 1 +
+// a, here in place.
 TEST_F(KernelsTest, ScaleIsLinear) {
   for (int n = 0; n <= kMaxSize; ++n) {
     std::vector<double> scaled(kStride, kUntouched), more = x_;
@@ -322,7 +324,8 @@ TEST_F(KernelsTest, LargestIsTheLargestMagnitude) {
   }
 }
 
-// The result is compared with long double, also where squares underflow or overflow.
+// The result is compared with long double, also where squares underflow or
+// overflow.
 TEST(Length, IsTheRootOfTheSumOfSquares) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const std::vector<double> parts{0,      1,      -3,   1e-20, 1e-139, 1e-141,

@@ -72,8 +72,9 @@ void LexicographicFactorization::SetRow(int a, const double* from, int first,
                                         int end, double norm) {
   double* to = row(a);
   std::fill_n(to, n_, 0);
-  // Products with the reciprocal are rounded twice. At degenerate vertices, warm starts would
-  // then need iterations (docs/notebook/2026-11-30-rows-without-calls.md).
+  // Products with the reciprocal are rounded twice. At degenerate vertices,
+  // warm starts would then need iterations
+  // (docs/notebook/2026-11-30-rows-without-calls.md).
   kernels::Divide(from + first, norm, end - first, scratch_.data());
   for (int j = first; j < end; ++j) {
     to[variables_.column(j)] = scratch_[j - first];
@@ -195,7 +196,8 @@ void LexicographicFactorization::TakeOut(int begin, int end, double* x,
   Count(2 * (end - begin), columns);
 }
 
-// Counts multiply-adds: one for each entry of `rows` rows, and kRowOverhead a row.
+// Counts multiply-adds: one for each entry of `rows` rows, and kRowOverhead a
+// row.
 void LexicographicFactorization::Count(int rows, int columns) {
   multiply_adds_ +=
       static_cast<std::int64_t>(rows) * (columns + kernels::kRowOverhead);
@@ -263,7 +265,8 @@ void LexicographicFactorization::PivotRows(Level* level) {
 }
 
 // Removes the row with the largest weighted remainder, and rows whose remainder
-// is zero, from the first `open` of open_. Returns this row, or -1 if all are zero.
+// is zero, from the first `open` of open_. Returns this row, or -1 if all are
+// zero.
 int LexicographicFactorization::TakePivot(int* open) {
   int pivot = -1, at = 0, left = 0;
   double largest = 0;
@@ -286,8 +289,9 @@ int LexicographicFactorization::TakePivot(int* open) {
   return pivot;
 }
 
-// Reduces the rows d_a l_a of a deficient level by reflections H, in the level's own
-// columns, from the last one to the first. The result is lower triangular:
+// Reduces the rows d_a l_a of a deficient level by reflections H, in the
+// level's own columns, from the last one to the first. The result is lower
+// triangular:
 //     H D L = [effective rows; zeros].
 // These rows replace the remainders, which are not needed any more. The columns
 // before are not reflected: SolveRows() and SolveDual() take them from L.
@@ -303,8 +307,8 @@ void LexicographicFactorization::Reduce(Level* level) {
     is_pivot_[a] = false;
   }
   for (int e = begin; e < end; ++e) is_pivot_[carrier_[e]] = true;
-  // The rows that may contain column e, in order. Rows that were orthogonalised before
-  // row e do not. PivotRows() does not need its list any more.
+  // The rows that may contain column e, in order. Rows that were orthogonalised
+  // before row e do not. PivotRows() does not need its list any more.
   int* const open = open_.data();
   int count = 0;
   for (int i = 0; i < rows; ++i) {
@@ -325,8 +329,9 @@ void LexicographicFactorization::Reduce(Level* level) {
   }
 }
 
-// Reflects the first `count` rows of open_, which are all that may contain column e, so that
-// column e is zero but in the row where its entry is largest. Returns this row.
+// Reflects the first `count` rows of open_, which are all that may contain
+// column e, so that column e is zero but in the row where its entry is largest.
+// Returns this row.
 int LexicographicFactorization::ReduceColumn(const Level& level, int e,
                                              int count) {
   double* first = row(level.first_row);

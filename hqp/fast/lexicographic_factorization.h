@@ -28,10 +28,11 @@ namespace poise {
 ///
 /// Levels can be removed from the end and added again. Levels before the first
 /// deficient one are all met, so their order does not matter: they can be
-/// merged into one, to which single rows are added and removed. There, the rows of
-/// one variable come first. Such a row is one of Q, up to its sign, and all other
-/// rows of Q are zero in its column: the variable is fixed, and the arithmetic is
-/// that of the free variables only. Nothing allocates after construction.
+/// merged into one, to which single rows are added and removed. There, the rows
+/// of one variable come first. Such a row is one of Q, up to its sign, and all
+/// other rows of Q are zero in its column: the variable is fixed, and the
+/// arithmetic is that of the free variables only. Nothing allocates after
+/// construction.
 class LexicographicFactorization {
  public:
   /// @param max_kept_rows  room for projections, see Recall().
@@ -59,28 +60,29 @@ class LexicographicFactorization {
   /// Fills row(a) with from[j] / norm, for `first` <= j < `end`.
   void SetRow(int a, const double* from, int first, int end, double norm);
 
-  /// Adds the row entry * y_variable, with entry = 1 or -1, to the merged level that
-  /// FactorMerged() factors next, and returns its number. The variable must be free.
-  /// pre: there are only such rows.
+  /// Adds the row entry * y_variable, with entry = 1 or -1, to the merged level
+  /// that FactorMerged() factors next, and returns its number. The variable
+  /// must be free. pre: there are only such rows.
   int AddFixedVariable(int variable, double entry, double target,
                        double metric);
 
   /// Gives the row a that was added last a key. The row's projection on the
   /// merged levels is then kept under this key, and follows RemoveRow(),
   /// AppendRow() and Merge(). Returns true if it is known, so that the caller
-  /// need not fill row(a). Also returns false if the levels before determine y, because the
-  /// row is then not projected.
+  /// need not fill row(a). Also returns false if the levels before determine y,
+  /// because the row is then not projected.
   [[nodiscard]] bool Recall(int a, int key);
 
   /// Forgets the projections of keys without Recall() since the last call.
   void ForgetUnused() { kept_.KeepUsed(); }
 
   /// Factors the rows added since the last level; row(a) is overwritten. If
-  /// multiply_adds() exceeds set_max_multiply_adds() before the end, this function removes
-  /// the rows and adds no level.
+  /// multiply_adds() exceeds set_max_multiply_adds() before the end, this
+  /// function removes the rows and adds no level.
   void FactorLevel();
-  /// Limits multiply_adds() of FactorLevel() and FactorMerged(). They exceed it by the
-  /// projection of the rows, and by one row of Q or one reflection, at most.
+  /// Limits multiply_adds() of FactorLevel() and FactorMerged(). They exceed it
+  /// by the projection of the rows, and by one row of Q or one reflection, at
+  /// most.
   void set_max_multiply_adds(std::int64_t most) { max_multiply_adds_ = most; }
 
   /// Merges the levels before `level`, none of which may be deficient. The
@@ -88,11 +90,10 @@ class LexicographicFactorization {
   /// Removes `level` and all later levels.
   void Merge(int level);
 
-  /// Factors all rows, those of AddFixedVariable() and of AddRow(), as the levels
-  /// before `level`, merged. Returns false and removes all rows if the independent
-  /// part of one is below kIndependentPart, or if multiply_adds() exceeds its limit before
-  /// the last row.
-  /// pre: no level has been factored.
+  /// Factors all rows, those of AddFixedVariable() and of AddRow(), as the
+  /// levels before `level`, merged. Returns false and removes all rows if the
+  /// independent part of one is below kIndependentPart, or if multiply_adds()
+  /// exceeds its limit before the last row. pre: no level has been factored.
   [[nodiscard]] bool FactorMerged(int level);
 
   /// Gives the merged level the number `level` - 1, after the rows of `level`
@@ -100,9 +101,9 @@ class LexicographicFactorization {
   void Unmerge(int level) { Renumber(level); }
 
   /// Removes row a from the last level, which must not be deficient. The last
-  /// row gets the number a. If row a was the e-th, this takes rank() - e rotations.
-  /// If it fixed a variable, this takes one for each row that fixes none, and the
-  /// variable becomes free.
+  /// row gets the number a. If row a was the e-th, this takes rank() - e
+  /// rotations. If it fixed a variable, this takes one for each row that fixes
+  /// none, and the variable becomes free.
   void RemoveRow(int a);
 
   /// Factors one row added to the last level, which must not be deficient.
@@ -110,13 +111,14 @@ class LexicographicFactorization {
   /// kIndependentPart.
   [[nodiscard]] bool AppendRow();
 
-  /// AppendRow() for the row entry * y_variable, with entry = 1 or -1. Fixes the
-  /// variable, with one rotation for each row that fixes none.
+  /// AppendRow() for the row entry * y_variable, with entry = 1 or -1. Fixes
+  /// the variable, with one rotation for each row that fixes none.
   [[nodiscard]] bool AppendFixedVariable(int variable, double entry);
 
   /// Solves the last level again, after all RemoveRow() and AppendRow().
   void SolveLast() { SolveLevel(levels_.back()); }
-  /// Changes the target of a row. Call SolveFrom() or SolveLast() after the last change.
+  /// Changes the target of a row. Call SolveFrom() or SolveLast() after the
+  /// last change.
   void SetTarget(int a, double target) { target_[a] = target; }
   /// Solves the levels from `level` on again.
   void SolveFrom(int level) {
@@ -148,7 +150,8 @@ class LexicographicFactorization {
   void Correct(const double* residual, double* change) {
     Correct(residual, num_levels(), change);
   }
-  /// Correct() for the first num_levels levels, of rank(num_levels - 1) entries.
+  /// Correct() for the first num_levels levels, of rank(num_levels - 1)
+  /// entries.
   void Correct(const double* residual, int num_levels, double* change);
 
   /// Replaces the residuals of a deficient level, and removes their rounding
@@ -158,11 +161,12 @@ class LexicographicFactorization {
   /// Weight d_a^2 of row a.
   double weight(int a) const { return metric_[a] * metric_[a]; }
 
-  /// The order of the columns of Q. Rows of Q before variables().size() are unit
-  /// vectors: row e has a one in column variables().fixed_column(e).
+  /// The order of the columns of Q. Rows of Q before variables().size() are
+  /// unit vectors: row e has a one in column variables().fixed_column(e).
   const FixedVariables& variables() const { return variables_; }
-  /// The other rows of Q. Each has variables().num_free() entries and is zero in the
-  /// other columns, which are not stored. Rows lie `stride` apart; y = Q' z.
+  /// The other rows of Q. Each has variables().num_free() entries and is zero
+  /// in the other columns, which are not stored. Rows lie `stride` apart; y =
+  /// Q' z.
   const double* free_basis() const { return q(variables_.size()); }
   int stride() const { return stride_; }
   const double* z() const { return z_.data(); }
@@ -184,8 +188,8 @@ class LexicographicFactorization {
 
   double norm_z() const;
 
-  /// Multiply-adds of factorisations, updates, substitutions and products with Q since
-  /// construction, and kernels::kRowOverhead more for each row.
+  /// Multiply-adds of factorisations, updates, substitutions and products with
+  /// Q since construction, and kernels::kRowOverhead more for each row.
   std::int64_t multiply_adds() const { return multiply_adds_; }
 
  private:
@@ -214,8 +218,9 @@ class LexicographicFactorization {
            static_cast<std::size_t>(e) * (reflection_.size() / n_);
   }
   void Renumber(int level);
-  /// Returns whether the levels before determine y. The level then has no rows of L: its
-  /// residuals are computed from y, and its gradient from the rows as they were set.
+  /// Returns whether the levels before determine y. The level then has no rows
+  /// of L: its residuals are computed from y, and its gradient from the rows as
+  /// they were set.
   bool IsDetermined(const Level& level) const { return level.rank_begin == n_; }
   bool IsLate() const { return multiply_adds_ > max_multiply_adds_; }
   void FactorRows(Level* level);
@@ -243,8 +248,8 @@ class LexicographicFactorization {
   int n_, stride_, num_rows_ = 0, rank_ = 0, num_merged_ = 0;
   FixedVariables variables_;
   std::vector<Level> levels_;
-  /// max_rows x stride: rows, then remainders, then the rows of Reduce(). Rows of a level
-  /// that is determined stay.
+  /// max_rows x stride: rows, then remainders, then the rows of Reduce(). Rows
+  /// of a level that is determined stay.
   AlignedDoubles work_;
   AlignedDoubles l_;  ///< max_rows x stride: rows of L.
   AlignedDoubles q_;  ///< n x stride; see variables().
@@ -257,8 +262,8 @@ class LexicographicFactorization {
   AlignedDoubles reflection_;  ///< n x max_rows.
   AlignedDoubles factor_, scratch_, packed_;
   std::vector<bool> is_pivot_;  ///< By row, in Reduce().
-  /// PivotRows(): rows that are neither orthogonalised nor zero. Reduce(): numbers in the
-  /// level of the rows that may contain its column.
+  /// PivotRows(): rows that are neither orthogonalised nor zero. Reduce():
+  /// numbers in the level of the rows that may contain its column.
   std::vector<int> open_;
   std::vector<int>
       nonzero_;  ///< ReduceColumn(): those of them that contain it.

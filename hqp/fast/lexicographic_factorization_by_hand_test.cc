@@ -80,9 +80,10 @@ TEST_F(LexicographicFactorizationTest, MeetsIndependentRowsOfAnyMetric) {
   EXPECT_LE((level.A * Optimum(stack, 2) - level.b).norm(), Rounding(2, 2, 4));
 }
 
-// Three rows of large weight contradict each other, and one of small weight has a variable of
-// its own, so that it is met, in any order of the rows. If it were orthogonalised before the
-// others, the rounding of their residuals would outweigh it.
+// Three rows of large weight contradict each other, and one of small weight has
+// a variable of its own, so that it is met, in any order of the rows. If it
+// were orthogonalised before the others, the rounding of their residuals would
+// outweigh it.
 TEST_F(LexicographicFactorizationTest, MeetsARowOfSmallWeightInAnyOrder) {
   const Eigen::RowVector3d small(0.36, 0.48, 0.8);
   const RowMajorMatrix large{{1, 0, 0}, {0.6, 0.8, 0}, {0.28, 0.96, 0}};
@@ -440,9 +441,9 @@ TEST_F(LexicographicFactorizationTest, TreatsRoundingOfALargeWeightRowAsZero) {
 }
 
 // y = (2, 3, 4) is determined by two fixed variables, y2 = 4 and y0 = 2, and by
-// 0.6 y0 + 0.8 y1 = 3.6. The level after has the rows y1 = 1 and 0.6 y0 + 0.8 y2 = 9.4, with
-// the residuals 2 and -5 and the weights 1 and 4. Its gradient in y is then
-// 2 e1 - 20 (0.6 e0 + 0.8 e2) = (-12, 2, -16).
+// 0.6 y0 + 0.8 y1 = 3.6. The level after has the rows y1 = 1 and 0.6 y0 + 0.8
+// y2 = 9.4, with the residuals 2 and -5 and the weights 1 and 4. Its gradient
+// in y is then 2 e1 - 20 (0.6 e0 + 0.8 e2) = (-12, 2, -16).
 TEST(LexicographicFactorizationOfFixedVariables, LeavesALevelWithoutFreedom) {
   LexicographicFactorization stack(3, 5, 2);
   const auto add = [&](double y0, double y1, double y2, double target,
@@ -500,9 +501,9 @@ TEST_F(LexicographicFactorizationTest, DoesNotAllocate) {
   EXPECT_EQ(count.allocations(), 0);
 }
 
-// A level has 60 rows of rank 50. If it takes too many multiply-adds, it ends after one more
-// row of Q or reflection. This takes less than three products of all rows, and of Q, with a
-// row.
+// A level has 60 rows of rank 50. If it takes too many multiply-adds, it ends
+// after one more row of Q or reflection. This takes less than three products of
+// all rows, and of Q, with a row.
 TEST(LexicographicFactorization, RemovesALevelSoonIfItTakesTooLong) {
   static constexpr int kVariables = 60, kRank = 50;
   const auto factor = [](std::int64_t most) {

@@ -74,8 +74,8 @@ TEST_P(RandomLexicographicFactorizationTest, AgreesWithSingularValues) {
   EXPECT_EQ(stack_.rank(), optimum_.rank.back());
 }
 
-// A level that takes too many multiply-adds is not added, and its rows are removed. What
-// was factored before stays, and the level can be added later.
+// A level that takes too many multiply-adds is not added, and its rows are
+// removed. What was factored before stays, and the level can be added later.
 TEST_P(RandomLexicographicFactorizationTest, RemovesALevelThatTakesTooLong) {
   const int last = num_levels_ - 1;
   stack_.Truncate(last);
@@ -363,8 +363,8 @@ TEST_P(UpdatedLexicographicFactorizationTest, AgreesWithSingularValues) {
   }
 }
 
-// All variables are fixed that can be. Then rows are removed, fixed variables and
-// others, and variables are fixed again.
+// All variables are fixed that can be. Then rows are removed, fixed variables
+// and others, and variables are fixed again.
 TEST_P(UpdatedLexicographicFactorizationTest, FixesAndReleasesVariables) {
   if (met_ == 0) return;
   for (int turn = 0; turn < 3; ++turn) {

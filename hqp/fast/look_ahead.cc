@@ -9,23 +9,24 @@
 namespace poise {
 namespace {
 
-// Most rows that are added ahead in one iteration. Of 2, 3, 4 and 6, none is best for all
-// recorded sequences (docs/notebook/2026-11-28-groups.md).
+// Most rows that are added ahead in one iteration. Of 2, 3, 4 and 6, none is
+// best for all recorded sequences (docs/notebook/2026-11-28-groups.md).
 constexpr int kMaxAhead = 3;
 
-// Most rows that are removed ahead in one iteration: long runs remove many. Chosen: 6, 8 and
-// 12 differ little (docs/notebook/2026-11-29-updates.md).
+// Most rows that are removed ahead in one iteration: long runs remove many.
+// Chosen: 6, 8 and 12 differ little (docs/notebook/2026-11-29-updates.md).
 constexpr int kMaxRemovedAhead = 8;
 
-// After so many iterations in a row that flip a row, the path flips rows ahead, up to
-// kMaxFlippedAhead. Chosen: of runs of 1, 2, 3 and 4 and of 1, 2, 3 and 7 rows, these lose
-// momentum in the fewest ticks (docs/notebook/2026-11-29-flips.md).
+// After so many iterations in a row that flip a row, the path flips rows ahead,
+// up to kMaxFlippedAhead. Chosen: of runs of 1, 2, 3 and 4 and of 1, 2, 3 and 7
+// rows, these lose momentum in the fewest ticks
+// (docs/notebook/2026-11-29-flips.md).
 constexpr int kFlipRun = 3, kMaxFlippedAhead = 3;
 
 }  // namespace
 
-// Changes further rows after a long run of iterations that all added, removed or flipped
-// rows.
+// Changes further rows after a long run of iterations that all added, removed
+// or flipped rows.
 void ParametricSearch::LookAhead(const Hierarchy& hierarchy,
                                  const WorkingSetProblem& problem,
                                  const Run& run, Change* last, Sides* side) {
@@ -45,11 +46,11 @@ void ParametricSearch::LookAhead(const Hierarchy& hierarchy,
   last->is_flip = is_flip;
 }
 
-// Adds those rows of one variable of the first `num_levels` levels that block next, up to
-// kMaxAhead, but none that has been removed on this path, unless `again`. Returns whether
-// there was one.
-// When a robot reaches its limits, many such rows are added one after the other; most are
-// independent of each other, and a wrong one gets a negative multiplier and is removed.
+// Adds those rows of one variable of the first `num_levels` levels that block
+// next, up to kMaxAhead, but none that has been removed on this path, unless
+// `again`. Returns whether there was one. When a robot reaches its limits, many
+// such rows are added one after the other; most are independent of each other,
+// and a wrong one gets a negative multiplier and is removed.
 bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
                                 const WorkingSetProblem& problem,
                                 int num_levels, const Change& last, bool again,
@@ -80,10 +81,10 @@ bool ParametricSearch::AddAhead(const Hierarchy& hierarchy,
   return next[0].side != Side::kNone;
 }
 
-// Removes those rows whose multipliers become negative next, up to kMaxRemovedAhead, and
-// none after one that has been removed on this path. From then on, their multipliers count as
-// zero. Returns whether there was one. A row that should have stayed blocks at once and is
-// added again.
+// Removes those rows whose multipliers become negative next, up to
+// kMaxRemovedAhead, and none after one that has been removed on this path. From
+// then on, their multipliers count as zero. Returns whether there was one. A
+// row that should have stayed blocks at once and is added again.
 bool ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
                                    const Change& last, Sides* side) {
   bool any = false;
@@ -97,8 +98,8 @@ bool ParametricSearch::RemoveAhead(const WorkingSetProblem& problem, int size,
   return any;
 }
 
-// Flips those rows whose multipliers become negative next, up to kMaxFlippedAhead. Returns
-// whether there was one.
+// Flips those rows whose multipliers become negative next, up to
+// kMaxFlippedAhead. Returns whether there was one.
 bool ParametricSearch::FlipAhead(const Hierarchy& hierarchy,
                                  const WorkingSetProblem& problem, int size,
                                  const Change& last, Sides* side) {
@@ -113,8 +114,8 @@ bool ParametricSearch::FlipAhead(const Hierarchy& hierarchy,
   return any;
 }
 
-// Returns whether a row can be flipped: it has one variable and two bounds, and this solve
-// has neither removed nor flipped it before.
+// Returns whether a row can be flipped: it has one variable and two bounds, and
+// this solve has neither removed nor flipped it before.
 bool ParametricSearch::MayFlip(const Hierarchy& hierarchy, RowIndex row) const {
   return hierarchy.C_span(row.level)[row.row].size == 1 &&
          hierarchy.upper(row.level)[row.row] <= tolerances::kInfiniteBound &&
@@ -122,9 +123,9 @@ bool ParametricSearch::MayFlip(const Hierarchy& hierarchy, RowIndex row) const {
          removals_.HasAllRemovals(row);
 }
 
-// Moves a row to its other bound, with the multiplier zero. If the prediction is right, the
-// row would be added there next. If not, its multiplier becomes negative, and the next
-// iteration removes it.
+// Moves a row to its other bound, with the multiplier zero. If the prediction
+// is right, the row would be added there next. If not, its multiplier becomes
+// negative, and the next iteration removes it.
 ParametricSearch::Change ParametricSearch::Flip(RowIndex row, Sides* side) {
   removals_.CountRemoval(row);
   Side& at = (*side)[row.level][row.row];

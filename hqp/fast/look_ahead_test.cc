@@ -18,8 +18,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-13;  // A few operations on numbers near 1.
 
-// Twelve boxes y_j <= upper_j, and a target for each y_j, but for y_5 plus leads_ times the
-// variables before it. By default, the bounds are 1, and y_5 has a target of its own.
+// Twelve boxes y_j <= upper_j, and a target for each y_j, but for y_5 plus
+// leads_ times the variables before it. By default, the bounds are 1, and y_5
+// has a target of its own.
 class LookAheadTest : public testing::Test {
  protected:
   static constexpr int kVariables = 12, kFollower = 5, kLeaders = kFollower;
@@ -59,15 +60,16 @@ class LookAheadTest : public testing::Test {
   PathBetween search_{kVariables, capacity_};
 };
 
-// Six bounds are reached. One iteration adds four of them, those that are reached first;
-// the path itself stops at the first one.
+// Six bounds are reached. One iteration adds four of them, those that are
+// reached first; the path itself stops at the first one.
 TEST_F(LookAheadTest, AddsRowsAheadInTheOrderOfTheirTimes) {
   search_.Begin(Start());
   Eigen::VectorXd target = Eigen::VectorXd::Zero(kVariables);
   target.head(6) << 7, 6, 5, 4, 3, 2;
   const Hierarchy end = At(target);
   ASSERT_FALSE(search_.Follow(end, 1));
-  // The row of the first iteration, three ahead, and the row of the second iteration.
+  // The row of the first iteration, three ahead, and the row of the second
+  // iteration.
   EXPECT_EQ(NumActive(), 5);
   EXPECT_TRUE(AreSorted(Side::kUpper, Side::kNone));
   ASSERT_TRUE(search_.Follow(end));
@@ -75,8 +77,8 @@ TEST_F(LookAheadTest, AddsRowsAheadInTheOrderOfTheirTimes) {
   EXPECT_NEAR((search_.y() - target.cwiseMin(1)).norm(), 0, kTolerance);
 }
 
-// Twelve rows with the multiplier 0 are removed, four in each iteration: nothing moves
-// before.
+// Twelve rows with the multiplier 0 are removed, four in each iteration:
+// nothing moves before.
 TEST_F(LookAheadTest, RemovesRowsTogetherWhoseMultiplierIsZero) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(kVariables);
   search_.Begin(At(ones));
@@ -91,8 +93,8 @@ TEST_F(LookAheadTest, RemovesRowsTogetherWhoseMultiplierIsZero) {
   EXPECT_NEAR((search_.y() + ones).norm(), 0, kTolerance);
 }
 
-// y_5 follows y_0, which stops at 1, so that y_5 does not reach its bound 1.1. This bound
-// is added ahead and removed again.
+// y_5 follows y_0, which stops at 1, so that y_5 does not reach its bound 1.1.
+// This bound is added ahead and removed again.
 TEST_F(LookAheadTest, LooksAheadAgainAfterFourAdditions) {
   leads_[0] = -1;
   upper_.setConstant(3);
@@ -104,14 +106,15 @@ TEST_F(LookAheadTest, LooksAheadAgainAfterFourAdditions) {
   y[kFollower] = 1;
   ASSERT_TRUE(search_.Follow(At(target)));
   EXPECT_NEAR((search_.y() - y).norm(), 0, 20 * kTolerance);  // |y| is 10.
-  // The first iteration adds y_0's bound, the wrong one and two others, and the second
-  // removes the wrong one. Four more add one bound each, and the last of them three
-  // others. The seventh adds the last bound.
+  // The first iteration adds y_0's bound, the wrong one and two others, and the
+  // second removes the wrong one. Four more add one bound each, and the last of
+  // them three others. The seventh adds the last bound.
   EXPECT_EQ(search_.iterations(), 7);
 }
 
-// All bounds are active at first, and none at the end. Three iterations remove one row each,
-// in the order in which the multipliers vanish, and the fourth removes all others.
+// All bounds are active at first, and none at the end. Three iterations remove
+// one row each, in the order in which the multipliers vanish, and the fourth
+// removes all others.
 TEST_F(LookAheadTest, RemovesRowsAheadAfterFourRemovals) {
   search_.Begin(At(Eigen::VectorXd::LinSpaced(kVariables, 2, kVariables + 1)));
   ASSERT_EQ(NumActive(), kVariables);
@@ -124,9 +127,9 @@ TEST_F(LookAheadTest, RemovesRowsAheadAfterFourRemovals) {
   EXPECT_NEAR(search_.y().norm(), 0, kTolerance);
 }
 
-// y_4 + y_5 is to be 1.7 at the end. The multiplier of y_5's bound vanishes soon after that
-// of y_4's, if y_4 stays at its bound. But y_4 then gets -0.15, so that y_5 stays at its
-// bound. This bound is removed ahead and added again.
+// y_4 + y_5 is to be 1.7 at the end. The multiplier of y_5's bound vanishes
+// soon after that of y_4's, if y_4 stays at its bound. But y_4 then gets -0.15,
+// so that y_5 stays at its bound. This bound is removed ahead and added again.
 TEST_F(LookAheadTest, AddsARowAgainThatWasRemovedAhead) {
   leads_[kFollower - 1] = 1;
   Eigen::VectorXd start(kVariables), end = Eigen::VectorXd::Zero(kVariables);
@@ -143,13 +146,14 @@ TEST_F(LookAheadTest, AddsARowAgainThatWasRemovedAhead) {
   y[kFollower - 1] = -0.15;
   y[kFollower] = 1;
   EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
-  // Four iterations remove rows 0 to 3, and the last of them all others. The fifth adds
-  // row 5 again.
+  // Four iterations remove rows 0 to 3, and the last of them all others. The
+  // fifth adds row 5 again.
   EXPECT_EQ(search_.iterations(), 5);
 }
 
-// Rows 0 to 2 are removed, and then row 5, because y_5 is to be 1.1 - y_4 / 2. Row 4 is
-// removed with it, and y_4 then gets 0.04 and y_5 its bound. So row 5 must be added again.
+// Rows 0 to 2 are removed, and then row 5, because y_5 is to be 1.1 - y_4 / 2.
+// Row 4 is removed with it, and y_4 then gets 0.04 and y_5 its bound. So row 5
+// must be added again.
 TEST_F(LookAheadTest, AddsTheRowAgainThatWasRemovedBeforeOthers) {
   leads_[kFollower - 1] = 0.5;
   Eigen::VectorXd start = Eigen::VectorXd::Constant(kVariables, 3);
@@ -165,8 +169,8 @@ TEST_F(LookAheadTest, AddsTheRowAgainThatWasRemovedBeforeOthers) {
   EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
 }
 
-// y_5 follows 0.9 y_4 and reaches its bound first. Row 4 is added ahead, and y_5 then gets
-// 0.6. So the row that was added first must be removed again.
+// y_5 follows 0.9 y_4 and reaches its bound first. Row 4 is added ahead, and
+// y_5 then gets 0.6. So the row that was added first must be removed again.
 TEST_F(LookAheadTest, RemovesTheRowThatWasAddedBeforeOthers) {
   leads_[kFollower - 1] = -0.9;
   Eigen::VectorXd start = Eigen::VectorXd::Zero(kVariables);
@@ -179,8 +183,8 @@ TEST_F(LookAheadTest, RemovesTheRowThatWasAddedBeforeOthers) {
   EXPECT_NEAR((search_.y() - y).norm(), 0, kTolerance);
 }
 
-// y is 0 and violates twelve bounds. Three iterations add four of them each, and one finds
-// that y violates none.
+// y is 0 and violates twelve bounds. Three iterations add four of them each,
+// and one finds that y violates none.
 TEST_F(LookAheadTest, AddsViolatedBoundsTogetherToMeetTheirLevel) {
   PathBetween other(kVariables, capacity_);
   search_.Begin(Start());
@@ -191,9 +195,9 @@ TEST_F(LookAheadTest, AddsViolatedBoundsTogetherToMeetTheirLevel) {
   EXPECT_FALSE(other.MeetLevelsBeforeLast(Start(), 3));
 }
 
-// y_1 follows y_0, with y_0 <= 1 and y_1 <= 1.5. The target of y_0 moves from 0 to 2, and
-// y_1 would reach its bound if y_0 did not stop before. So this bound is added ahead, and
-// must be removed again.
+// y_1 follows y_0, with y_0 <= 1 and y_1 <= 1.5. The target of y_0 moves from 0
+// to 2, and y_1 would reach its bound if y_0 did not stop before. So this bound
+// is added ahead, and must be removed again.
 TEST(LookAhead, RemovesARowThatWasAddedAhead) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {2, 0}};
   const auto at = [&](double target) {

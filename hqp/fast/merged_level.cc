@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// LexicographicFactorization, second part: the merged level, to which rows are added
-// and removed one by one.
+// LexicographicFactorization, second part: the merged level, to which rows are
+// added and removed one by one.
 #include <algorithm>
 #include <cmath>
 
@@ -150,9 +150,9 @@ bool LexicographicFactorization::AppendFixedVariable(int variable,
 }
 
 // Moves the last row, entry * y_variable, before all rows that fix no variable.
-// Rotations from the last column of L to the first make this row of L a unit vector.
-// The row of Q that belongs to it is then entry * e_variable, and the other rows
-// have rounding in this column.
+// Rotations from the last column of L to the first make this row of L a unit
+// vector. The row of Q that belongs to it is then entry * e_variable, and the
+// other rows have rounding in this column.
 void LexicographicFactorization::FixLast(int variable, double entry) {
   const int first = variables_.size(), last = rank_ - 1;
   const int columns = variables_.num_free();

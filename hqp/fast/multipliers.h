@@ -17,8 +17,9 @@ class MultiplierWriter {
  public:
   explicit MultiplierWriter(int num_variables);
 
-  /// Writes y, the levels and their multipliers. Where signs are corrected, a multiplier
-  /// below tolerances::kZeroMultiplier, relative to the largest one, counts as zero.
+  /// Writes y, the levels and their multipliers. Where signs are corrected, a
+  /// multiplier below tolerances::kZeroMultiplier, relative to the largest one,
+  /// counts as zero.
   /// @param problem  the solved problem; its factorisation and its diagonal
   ///                 levels may be overwritten.
   void Write(const Hierarchy& hierarchy,

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// ParametricSearch: the move to a nearby point that meets all leading levels but the
-// last, before the path or after it has been paused.
+// ParametricSearch: the move to a nearby point that meets all leading levels
+// but the last, before the path or after it has been paused.
 #include <algorithm>
 
 #include "poise/hqp/fast/cost_order.h"
@@ -9,10 +9,10 @@
 namespace poise {
 namespace {
 
-// Rows with a negative multiplier of the distance are only removed if it is at least this part
-// of the most negative one. Others would often be added again. Of 0, 0.03, 0.05, 0.08, 0.1 and
-// 0.15, this value loses momentum in the fewest ticks
-// (docs/notebook/2026-11-29-answers.md).
+// Rows with a negative multiplier of the distance are only removed if it is at
+// least this part of the most negative one. Others would often be added again.
+// Of 0, 0.03, 0.05, 0.08, 0.1 and 0.15, this value loses momentum in the fewest
+// ticks (docs/notebook/2026-11-29-answers.md).
 constexpr double kLargeMultiplier = 0.03;
 
 }  // namespace
@@ -53,7 +53,8 @@ ParametricSearch::Meeting ParametricSearch::MeetLevelsBeforeLast(
   }
   if (IsBetter(hierarchy, y_, *answer)) *answer = y_;
   problem->UseLeading(leading);
-  // This is not interrupted: the levels that y meets would then have no multipliers.
+  // This is not interrupted: the levels that y meets would then have no
+  // multipliers.
   problem->SolveLeading(hierarchy, *side);
   return Meeting::kMet;
 }
@@ -74,10 +75,11 @@ bool ParametricSearch::PauseAtLevelsBeforeLast(const Hierarchy& hierarchy,
   return is_found;
 }
 
-// Moves y to an optimum of the leading levels near it. This is the first optimum of a
-// working set that violates no bound. If a level is deficient, that working set must have no
-// large negative multiplier either. Few rows have a positive multiplier there, so that rows
-// with a negative one are removed together.
+// Moves y to an optimum of the leading levels near it. This is the first
+// optimum of a working set that violates no bound. If a level is deficient,
+// that working set must have no large negative multiplier either. Few rows have
+// a positive multiplier there, so that rows with a negative one are removed
+// together.
 bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
                                    Budget* budget, WorkingSetProblem* problem,
                                    Sides* side) {
@@ -103,23 +105,25 @@ bool ParametricSearch::FindNearest(const Hierarchy& hierarchy, int limit,
     StepTo(problem->y(), blocking.time);
     if (!blocks) return true;
     last = Add(blocking, side);
-    // Where one row blocks, others are likely to block next, also those that have been
-    // removed together.
+    // Where one row blocks, others are likely to block next, also those that
+    // have been removed together.
     if (AddAhead(hierarchy, *problem, num_levels, last, true, side)) last = {};
   }
 }
 
-// Removes rows with a negative multiplier: all where it is that of a level, and of those
-// where it is that of the distance, the ones with at least kLargeMultiplier of the most
-// negative one. But rows that have been removed before in this search are only removed if
-// there are no others, and then one by one: together, they would be added and removed again
-// and again. Returns whether there was one.
+// Removes rows with a negative multiplier: all where it is that of a level, and
+// of those where it is that of the distance, the ones with at least
+// kLargeMultiplier of the most negative one. But rows that have been removed
+// before in this search are only removed if there are no others, and then one
+// by one: together, they would be added and removed again and again. Returns
+// whether there was one.
 bool ParametricSearch::RemoveNegative(const WorkingSetProblem& problem,
                                       int size, const Change& last,
                                       Sides* side) {
   bool any = false;
   double most_negative = 0;
-  // The row that is removed alone, and its multiplier: the first level that has one counts.
+  // The row that is removed alone, and its multiplier: the first level that has
+  // one counts.
   RowIndex alone;
   int first_level = size;
   double least = 0;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests of ParametricSearch::MeetLevelsBeforeLast() and PauseAtLevelsBeforeLast().
+// Tests of ParametricSearch::MeetLevelsBeforeLast() and
+// PauseAtLevelsBeforeLast().
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -26,8 +27,8 @@ using Sides = ParametricSearch::Sides;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Relative tolerance of y. The condition of rows of normally distributed numbers is
-// below 1e4 in these tests, and multiplies rounding by its square.
+// Relative tolerance of y. The condition of rows of normally distributed
+// numbers is below 1e4 in these tests, and multiplies rounding by its square.
 constexpr double kSameY = 1e-7;
 
 std::vector<double> ToVector(const Eigen::VectorXd& y) {
@@ -86,8 +87,8 @@ double Violation(const Hierarchy& hierarchy, const Eigen::VectorXd& y) {
                       .maxCoeff());
 }
 
-// Returns the point closest to `from` that meets levels 0 and 1, found in another way:
-// by the cascade, with `from` as the target of the last level.
+// Returns the point closest to `from` that meets levels 0 and 1, found in
+// another way: by the cascade, with `from` as the target of the last level.
 Eigen::VectorXd FindNearest(const Hierarchy& hierarchy,
                             const Eigen::VectorXd& from) {
   const int n = FirstLevels::kVariables;
@@ -109,8 +110,8 @@ Eigen::VectorXd FindNearest(const Hierarchy& hierarchy,
   return solution.y;
 }
 
-// The point is the first optimum of a working set that violates no bound. Mostly this is the
-// closest one.
+// The point is the first optimum of a working set that violates no bound.
+// Mostly this is the closest one.
 TEST(NearestOptimum, MeetsLevelsAtANearPoint) {
   int closest = 0, followed = 0;
   for (int seed = 0; seed < 100; ++seed) {
@@ -134,8 +135,8 @@ TEST(NearestOptimum, MeetsLevelsAtANearPoint) {
     const double least = (FindNearest(hierarchy, from) - from).norm();
     EXPECT_GE(distance, least - tolerance);
     closest += distance <= least + tolerance;
-    // The path itself goes on, for the same working set. Only with a limit of time does a
-    // solver call MeetLevelsBeforeLast().
+    // The path itself goes on, for the same working set. Only with a limit of
+    // time does a solver call MeetLevelsBeforeLast().
     search.Start(hierarchy);
     if (!search.FollowFromHere(hierarchy, PathBetween::kEnough, 1)) continue;
     ++followed;
@@ -146,9 +147,9 @@ TEST(NearestOptimum, MeetsLevelsAtANearPoint) {
   EXPECT_GT(followed, 70);
 }
 
-// The sum of six bounded variables must become 7, and y is to stay close to zero. One
-// iteration adds the sum, with y_i = 7/6; one the three bounds that block next; and one the
-// fourth. One finds that y violates nothing.
+// The sum of six bounded variables must become 7, and y is to stay close to
+// zero. One iteration adds the sum, with y_i = 7/6; one the three bounds that
+// block next; and one the fourth. One finds that y violates nothing.
 TEST(NearestOptimum, AddsTheBoundsThatBlockNext) {
   constexpr int kSum = 6;
   const std::vector<LevelCapacity> capacity{{0, 7}, {6, 0}};
@@ -173,8 +174,9 @@ TEST(NearestOptimum, AddsTheBoundsThatBlockNext) {
   EXPECT_NEAR((search.y() - y).norm(), 0, kSameY);
 }
 
-// Level 0 fixes y_0 + y_2 and y_1 + y_3, level 1 bounds y_0 and y_1 by 1, and both are at
-// their bounds at first. Then the sums get smaller, and y_0 - y_1 must not exceed -0.5.
+// Level 0 fixes y_0 + y_2 and y_1 + y_3, level 1 bounds y_0 and y_1 by 1, and
+// both are at their bounds at first. Then the sums get smaller, and y_0 - y_1
+// must not exceed -0.5.
 TEST(NearestOptimum, RemovesRowsWithALargeNegativeMultiplierFirst) {
   const std::vector<LevelCapacity> capacity{{2, 0}, {0, 3}, {4, 0}};
   const auto at = [&](double sum, double other_sum, double most) {
@@ -193,8 +195,8 @@ TEST(NearestOptimum, RemovesRowsWithALargeNegativeMultiplierFirst) {
     hierarchy.FindSpans();
     return hierarchy;
   };
-  // The bound of y_1 has 0.01 or 0.36 of the multiplier of that of y_0, which is removed in
-  // the first iteration. In the second, y violates nothing.
+  // The bound of y_1 has 0.01 or 0.36 of the multiplier of that of y_0, which
+  // is removed in the first iteration. In the second, y violates nothing.
   for (const double shift : {0.1, 4.0}) {
     SCOPED_TRACE(shift);
     const bool is_large = shift > 1;
@@ -208,9 +210,10 @@ TEST(NearestOptimum, RemovesRowsWithALargeNegativeMultiplierFirst) {
   }
 }
 
-// The targets -1 and -3 of level 1 contradict each other, and y_0 = -2 is the optimum. The
-// working set has the bound y_0 <= 0 at first, which keeps y_0 from it. Its multiplier of
-// level 1 is negative, but that of the distance to y = (2, 0) positive.
+// The targets -1 and -3 of level 1 contradict each other, and y_0 = -2 is the
+// optimum. The working set has the bound y_0 <= 0 at first, which keeps y_0
+// from it. Its multiplier of level 1 is negative, but that of the distance to
+// y = (2, 0) positive.
 TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
   const std::vector<LevelCapacity> capacity{{1, 2}, {2, 0}, {3, 0}};
   const auto at = [&](double sum, double bound, double target) {
@@ -235,7 +238,8 @@ TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
   search.Begin(at(0, 1, -10));
   ASSERT_NEAR(search.y()[0], 0, kSameY);
   ASSERT_EQ(search.side()[0][0], Side::kUpper);
-  // A path that is continued begins with y_0 and y_1 at their bounds, and violates none.
+  // A path that is continued begins with y_0 and y_1 at their bounds, and
+  // violates none.
   for (const bool is_continued : {false, true}) {
     SCOPED_TRACE(is_continued);
     if (is_continued) {
@@ -253,8 +257,9 @@ TEST(NearestOptimum, IsAnOptimumOfALevelThatCannotBeMet) {
   }
 }
 
-// Limits that cannot all be met are added and removed many times. But groups of rows are not
-// removed again and again: without this rule, 37 of 500 searches take more than 80 iterations.
+// Limits that cannot all be met are added and removed many times. But groups of
+// rows are not removed again and again: without this rule, 37 of 500 searches
+// take more than 80 iterations.
 TEST(NearestOptimum, SeldomCyclesWhereLimitsCannotBeMet) {
   int endless = 0;
   for (int seed = 0; seed < 500; ++seed) {
@@ -267,7 +272,8 @@ TEST(NearestOptimum, SeldomCyclesWhereLimitsCannotBeMet) {
   EXPECT_LT(endless, 11);
 }
 
-// Bounds that become infinite while the budget ends do not stay in the working set.
+// Bounds that become infinite while the budget ends do not stay in the working
+// set.
 TEST(NearestOptimum, MeetsLevelsAfterBoundsBecomeInfinite) {
   int spent = 0;
   for (int seed = 0; seed < 50; ++seed) {
@@ -289,8 +295,8 @@ TEST(NearestOptimum, MeetsLevelsAfterBoundsBecomeInfinite) {
   EXPECT_GT(spent, 20);
 }
 
-// A solve that spends its budget on the first levels is followed by one that does not,
-// so that the path goes on.
+// A solve that spends its budget on the first levels is followed by one that
+// does not, so that the path goes on.
 TEST(NearestOptimum, AdvancesThePathAfterMeetingLevels) {
   int spent = 0, spent_again = 0;
   for (int seed = 0; seed < 100; ++seed) {
@@ -320,8 +326,9 @@ TEST(NearestOptimum, AdvancesThePathAfterMeetingLevels) {
   EXPECT_GT(spent_again, 25);
 }
 
-// If a path is continued, the search begins with the working set of the last point. It then
-// mostly finds a point in one iteration, and solves the levels again in a second one.
+// If a path is continued, the search begins with the working set of the last
+// point. It then mostly finds a point in one iteration, and solves the levels
+// again in a second one.
 TEST(NearestOptimum, BeginsWithTheLastPointIfThePathIsContinued) {
   int longer = 0, paused = 0, at_once = 0;
   for (int seed = 0; seed < 50; ++seed) {
@@ -351,8 +358,8 @@ TEST(NearestOptimum, BeginsWithTheLastPointIfThePathIsContinued) {
   EXPECT_GT(at_once, 0.8 * paused) << paused;
 }
 
-// Bounds that keep y_1 at 5 are forgotten by the time when y_0 must move: y_1 stays at its
-// optimum, whatever the working set of the last search.
+// Bounds that keep y_1 at 5 are forgotten by the time when y_0 must move: y_1
+// stays at its optimum, whatever the working set of the last search.
 TEST(NearestOptimum, DoesNotReturnToAnOldWorkingSet) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {3, 0}};
   const auto at = [&](double most, double least) {
@@ -382,8 +389,8 @@ TEST(NearestOptimum, DoesNotReturnToAnOldWorkingSet) {
   }
 }
 
-// After a path that has ended within its share, the rest of the time is left, for instance for
-// refinement.
+// After a path that has ended within its share, the rest of the time is left,
+// for instance for refinement.
 TEST(NearestOptimum, LeavesTheRestOfTheTimeAfterAPath) {
   double time = 0;
   const std::function<double()> now = [&] { return time; };

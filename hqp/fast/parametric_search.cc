@@ -13,13 +13,14 @@
 namespace poise {
 namespace {
 
-// Most rows without a multiplier that one iteration removes. One iteration must not take
-// long: where a limit of time interrupts it, its work is lost.
+// Most rows without a multiplier that one iteration removes. One iteration must
+// not take long: where a limit of time interrupts it, its work is lost.
 constexpr int kMaxRemoved = 4;
 
-// A path is given up after so many iterations of one solve in a row that add and remove rows
-// in turn. On recorded robots, such a path goes from vertex to vertex in steps of 1e-7 to
-// 1e-2 of its length. The primal method takes longer steps. With 12, some falls take longer
+// A path is given up after so many iterations of one solve in a row that add
+// and remove rows in turn. On recorded robots, such a path goes from vertex to
+// vertex in steps of 1e-7 to 1e-2 of its length. The primal method takes longer
+// steps. With 12, some falls take longer
 // (docs/notebook/2026-11-29-alternations.md).
 constexpr int kMaxAlternations = 16;
 
@@ -65,7 +66,8 @@ void ParametricSearch::Pause(const Sides& side) {
   is_paused_ = true;
 }
 
-// Replaces side_ by `side`. A row whose side differs has no multiplier from then on.
+// Replaces side_ by `side`. A row whose side differs has no multiplier from
+// then on.
 void ParametricSearch::TakeWorkingSet(const Sides& side) {
   for (size_t level = 0; level < side.size(); ++level) {
     if (AreSame(side[level], side_[level])) continue;
@@ -80,8 +82,8 @@ void ParametricSearch::TakeWorkingSet(const Sides& side) {
 bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
                               Budget* budget, WorkingSetProblem* problem,
                               Sides* side) {
-  // The limits hold for one solve. A cycle over several solves ends when the solver
-  // starts over.
+  // The limits hold for one solve. A cycle over several solves ends when the
+  // solver starts over.
   removals_.Reset(hierarchy);
   skips_near_ = false;
   TakeWorkingSet(*side);
@@ -113,9 +115,9 @@ bool ParametricSearch::Follow(const Hierarchy& hierarchy, int limit,
   }
 }
 
-// Moves y and the multipliers to the next change of the working set, and makes this
-// change. If there is none before the end of the path, this returns false and moves
-// nothing.
+// Moves y and the multipliers to the next change of the working set, and makes
+// this change. If there is none before the end of the path, this returns false
+// and moves nothing.
 bool ParametricSearch::Step(const Hierarchy& hierarchy,
                             WorkingSetProblem* problem, Change* last,
                             Sides* side) {
@@ -156,9 +158,10 @@ bool ParametricSearch::Step(const Hierarchy& hierarchy,
   return true;
 }
 
-// Removes rows whose multiplier is zero at the time that has been reached and negative at
-// the end of the path, kMaxRemoved at most. Returns whether there was one. The row that was
-// added last stays protected from removal, and one that is removed alone from being added.
+// Removes rows whose multiplier is zero at the time that has been reached and
+// negative at the end of the path, kMaxRemoved at most. Returns whether there
+// was one. The row that was added last stays protected from removal, and one
+// that is removed alone from being added.
 bool ParametricSearch::RemoveVanished(const WorkingSetProblem& problem,
                                       int size, Change* last, Sides* side) {
   int removed = 0;
@@ -193,8 +196,9 @@ double ParametricSearch::Noise(const WorkingSetProblem& problem) const {
              (kernels::Largest(y_.data(), n_) + problem.Size());
 }
 
-// Returns whether and when a row blocks the path, at whose end it has the value `end_value`.
-// pre: the row is not in the working set, and `end_value` is outside its bounds.
+// Returns whether and when a row blocks the path, at whose end it has the value
+// `end_value`. pre: the row is not in the working set, and `end_value` is
+// outside its bounds.
 ParametricSearch::Blocking ParametricSearch::FindTime(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem, RowIndex row,
     double end_value, double noise, const Change& last) const {
@@ -218,9 +222,9 @@ ParametricSearch::Blocking ParametricSearch::FindTime(
   return {row, at, left > 0 ? left / (left + beyond) : 0, beyond / norm};
 }
 
-// Finds the first blocking constraint outside the working set. A bound that y violates
-// at the start and at the end of the path blocks at once. Among bounds at equal time,
-// the end violates the returned one most.
+// Finds the first blocking constraint outside the working set. A bound that y
+// violates at the start and at the end of the path blocks at once. Among bounds
+// at equal time, the end violates the returned one most.
 ParametricSearch::Blocking ParametricSearch::FindBlocking(
     const Hierarchy& hierarchy, const WorkingSetProblem& problem,
     int num_levels, const Change& last, const Sides& side) {
@@ -249,8 +253,8 @@ ParametricSearch::Blocking ParametricSearch::FindBlocking(
   return first;
 }
 
-// Finds the row whose multiplier becomes negative first, and the time at which this
-// multiplier is zero: 0 if it is not positive at the start.
+// Finds the row whose multiplier becomes negative first, and the time at which
+// this multiplier is zero: 0 if it is not positive at the start.
 RowIndex ParametricSearch::FindRemoval(const WorkingSetProblem& problem,
                                        int size, const Change& last,
                                        const Sides& side) {
@@ -278,10 +282,10 @@ RowIndex ParametricSearch::FindRemoval(const WorkingSetProblem& problem,
   return removed;
 }
 
-// Returns whether row a may be removed, and its multiplier at the end of the path is
-// negative. That multiplier is then in end_. The row that was added last stays: only
-// rounding can make its multiplier negative. A row that was removed already has the
-// multiplier zero.
+// Returns whether row a may be removed, and its multiplier at the end of the
+// path is negative. That multiplier is then in end_. The row that was added
+// last stays: only rounding can make its multiplier negative. A row that was
+// removed already has the multiplier zero.
 bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
                                  const Change& last, const Sides& side, int a) {
   const WorkingSetProblem::Row& row = problem.row(a);
@@ -295,8 +299,8 @@ bool ParametricSearch::MayRemove(const WorkingSetProblem& problem, int size,
   return true;
 }
 
-// Returns whether the multiplier of row a at the end of the path is negative: its first
-// coefficient that is not zero.
+// Returns whether the multiplier of row a at the end of the path is negative:
+// its first coefficient that is not zero.
 bool ParametricSearch::IsNegativeAtEnd(const WorkingSetProblem& problem,
                                        int size, Side side, int a) {
   double coefficient = 0;
@@ -308,8 +312,8 @@ bool ParametricSearch::IsNegativeAtEnd(const WorkingSetProblem& problem,
   return coefficient < 0;
 }
 
-// Computes the multiplier of row a at the end of the path, with `size` coefficients.
-// On its own level, it is the weighted residual.
+// Computes the multiplier of row a at the end of the path, with `size`
+// coefficients. On its own level, it is the weighted residual.
 const double* ParametricSearch::EndMultiplier(const WorkingSetProblem& problem,
                                               int size, const Sides& side,
                                               int a) {

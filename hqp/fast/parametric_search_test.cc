@@ -24,8 +24,8 @@ using Sides = ParametricSearch::Sides;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-13;  // A few operations on numbers near 1.
 
-// Two variables with y_0 <= 1 and y_1 <= 1, and below a target for both, with weight
-// 1. Its rows are not unit vectors, so that the level is a leading one.
+// Two variables with y_0 <= 1 and y_1 <= 1, and below a target for both, of
+// weight 1. Its rows are not unit vectors, so that the level is a leading one.
 class ParametricSearchTest : public testing::Test {
  protected:
   Hierarchy At(double target_0, double target_1, double bound_0 = 1,
@@ -56,8 +56,9 @@ TEST_F(ParametricSearchTest, AddsARowWhereThePathReachesItsBound) {
   EXPECT_NEAR(search_.y()[1], 0, kTolerance);
 }
 
-// The bound holds y_0 = 1 with the multiplier target - 1, which goes from 2 to -2. The
-// multiplier is zero at half of the path. There y_1, which is free, is 0.25.
+// The bound holds y_0 = 1 with the multiplier target - 1, which goes from 2 to
+// -2. The multiplier is zero at half of the path. There y_1, which is free, is
+// 0.25.
 TEST_F(ParametricSearchTest, RemovesARowWhereItsMultiplierIsZero) {
   search_.Begin(At(3, 0));
   ASSERT_EQ(side(0), Side::kUpper);
@@ -68,8 +69,8 @@ TEST_F(ParametricSearchTest, RemovesARowWhereItsMultiplierIsZero) {
   EXPECT_NEAR(search_.y()[1], 0.25, kTolerance);
 }
 
-// The bound on y_0 is removed at a quarter, when y_1 has come from 0 to 0.4, or y_1
-// reaches its bound before, at a fifth.
+// The bound on y_0 is removed at a quarter, when y_1 has come from 0 to 0.4, or
+// y_1 reaches its bound before, at a fifth.
 TEST_F(ParametricSearchTest, MakesTheEarlierChangeFirst) {
   for (const double target : {1.6, 5.0}) {
     PathBetween search(2, capacity_);
@@ -93,8 +94,8 @@ TEST_F(ParametricSearchTest, RemovesTheRowWhoseMultiplierVanishesFirst) {
   }
 }
 
-// The bounds become 0, so that y = (0.5, 0.5) violates both from the start. The end
-// violates one of them by 2 and the other one by 1.
+// The bounds become 0, so that y = (0.5, 0.5) violates both from the start. The
+// end violates one of them by 2 and the other one by 1.
 TEST_F(ParametricSearchTest, AddsTheMoreViolatedOfTwoRowsThatBlockAtOnce) {
   for (const int most : {0, 1}) {
     PathBetween search(2, capacity_);
@@ -132,15 +133,16 @@ TEST_F(ParametricSearchTest, TakesNoIterationIfNothingChanges) {
   EXPECT_NEAR(search_.y()[1], 0.5, kTolerance);
 }
 
-// The bound on y_0 is removed from the working set, and the path is paused. On the rest
-// of the path, the multiplier of this bound is zero at the start, although it was 1.6
-// before. With the cost
+// The bound on y_0 is removed from the working set, and the path is paused. On
+// the rest of the path, the multiplier of this bound is zero at the start,
+// although it was 1.6 before. With the cost
 //     5/8 (y_0 - t_0)^2 - 3/4 (y_0 - t_0) (y_1 - t_1) + 5/8 (y_1 - t_1)^2:
-// 1. The target of y_0 violates its bound. y_0 is at this bound, so that the bound is
-//    added at time 0. Its multiplier would be 2/5 at the end, with y_1 = 2.7.
+// 1. The target of y_0 violates its bound. y_0 is at this bound, so that the
+//    bound is added at time 0. Its multiplier would be 2/5 at the end, with
+//    y_1 = 2.7.
 // 2. y_1 goes from -1.2 to its bound 1, which is added. There, y_2 is the time.
-// 3. From then on, the multiplier of the bound on y_0 decreases towards -7/8. Where it is
-//    zero, the bound is removed.
+// 3. From then on, the multiplier of the bound on y_0 decreases towards -7/8.
+//    Where it is zero, the bound is removed.
 TEST(ParametricSearch, ForgetsTheMultiplierOfARowThatIsRemovedBeforeAPause) {
   const std::vector<LevelCapacity> capacity{{0, 2}, {3, 0}};
   const auto at = [&](const Eigen::Vector3d& target) {
@@ -195,9 +197,10 @@ TEST_F(ParametricSearchTest, ForgetsThePath) {
   EXPECT_FALSE(search_.path().is_paused());
 }
 
-// A polygon of 40 sides around the unit circle, and a target at a distance of 3 in the
-// direction of the middle of a side. When the target turns, the path goes along the polygon:
-// it adds a side at each corner, and then removes the one before.
+// A polygon of 40 sides around the unit circle, and a target at a distance of 3
+// in the direction of the middle of a side. When the target turns, the path
+// goes along the polygon: it adds a side at each corner, and then removes the
+// one before.
 class PolygonTest : public testing::Test {
  protected:
   static constexpr int kCorners = 40;
@@ -246,8 +249,8 @@ TEST_F(PolygonTest, IsGivenUpAfterManyCorners) {
   }
 }
 
-// Two polygons are turned against each other by an eighth of the angle of a side, so that two
-// sides are added, and then two removed.
+// Two polygons are turned against each other by an eighth of the angle of a
+// side, so that two sides are added, and then two removed.
 TEST_F(PolygonTest, IsFollowedIfTwoRowsInARowChangeInOneDirection) {
   PathBetween search(4, Capacity(2));
   search.Begin(Towards(0, 2));

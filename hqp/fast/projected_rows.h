@@ -44,7 +44,8 @@ class ProjectedRows {
   /// The rotation of kernels::Rotate() is applied to rows e and e + 1 of Q.
   void Rotate(int e, double c, double s);
 
-  /// The last row q of Q, which is zero behind its `columns` entries, is removed.
+  /// The last row q of Q, which is zero behind its `columns` entries, is
+  /// removed.
   void RemoveLast(const double* q, int columns);
 
   /// Rows e and f of Q are swapped.

@@ -105,8 +105,8 @@ TEST_F(ProjectedRowsTest, FollowsRandomChangesOfTheBasis) {
   EXPECT_EQ(keys_.size(), kMaxRows);
 }
 
-// A row of Q that is zero behind its first columns leaves the rest of a remainder
-// alone.
+// A row of Q that is zero behind its first columns leaves the rest of a
+// remainder alone.
 TEST_F(ProjectedRowsTest, SubtractsFromTheFirstColumnsOnly) {
   for (const int key : {1, 2}) Add(key);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(kVariables);

@@ -136,8 +136,8 @@ void WorkingSetProblem::Refine(const Hierarchy& hierarchy, bool to_minimum) {
   TakeDeficientResiduals();
 }
 
-// Sets the entries of y to zero that are negligible beside `largest`, except those at the
-// target of a diagonal level. Returns whether there was one.
+// Sets the entries of y to zero that are negligible beside `largest`, except
+// those at the target of a diagonal level. Returns whether there was one.
 bool WorkingSetProblem::ZeroNegligibleEntries(double largest) {
   bool any = false;
   for (int j = 0; j < n_; ++j) {
@@ -151,10 +151,11 @@ bool WorkingSetProblem::ZeroNegligibleEntries(double largest) {
   return any;
 }
 
-// Sets negligible entries of y to zero if all rows are then met to rounding, and returns
-// whether they are. If not, y is as before. The rows of a foot without load have the target
-// zero. In each pass, rounding of other entries leaves a tiny value, so that these rows are
-// never met relative to their own terms.
+// Sets negligible entries of y to zero if all rows are then met to rounding,
+// and returns whether they are. If not, y is as before. The rows of a foot
+// without load have the target zero. In each pass, rounding of other entries
+// leaves a tiny value, so that these rows are never met relative to their own
+// terms.
 bool WorkingSetProblem::TryZeros(const Hierarchy& hierarchy, double largest) {
   change_ = y_;
   if (!ZeroNegligibleEntries(largest)) return false;
@@ -219,8 +220,8 @@ void WorkingSetProblem::UpdateDeficientResiduals(const Hierarchy& hierarchy) {
   TakeDeficientResiduals();
 }
 
-// Sets the residuals of the deficient levels to those of the last ComputeRowResiduals(),
-// with rounding set to zero.
+// Sets the residuals of the deficient levels to those of the last
+// ComputeRowResiduals(), with rounding set to zero.
 void WorkingSetProblem::TakeDeficientResiduals() {
   for (int level = 0; level < num_leading_; ++level) {
     if (!leading_.is_deficient(level)) continue;

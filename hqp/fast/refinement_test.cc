@@ -167,8 +167,9 @@ TEST_F(RefinementTest, SetsRoundingEntriesToZero) {
   }
 }
 
-// Rows with the target zero take one more correction at most than rows with other targets:
-// after it, the rounding is far below 1e-18 of the largest entry.
+// Rows with the target zero take one more correction at most than rows with
+// other targets: after it, the rounding is far below 1e-18 of the largest
+// entry.
 TEST_F(RefinementTest, StopsWhereRoundingKeepsRowsFromZero) {
   const auto refine = [this](double target) {
     return Refine({{Row({1, 0.3, 0.7}), 300},

@@ -16,10 +16,10 @@ struct RowIndex {
   }
 };
 
-/// Limits how often a search may remove a row from the working set. Searches need fewer
-/// removals; the limit ends cycles that rounding causes. A row without removals left is
-/// neither removed nor added. A frozen row is an equality and stays in the working set.
-/// Nothing allocates after construction.
+/// Limits how often a search may remove a row from the working set. Searches
+/// need fewer removals; the limit ends cycles that rounding causes. A row
+/// without removals left is neither removed nor added. A frozen row is an
+/// equality and stays in the working set. Nothing allocates after construction.
 class RemovalLimits {
  public:
   static constexpr int kMaxRemovals = 10;
@@ -30,8 +30,8 @@ class RemovalLimits {
     }
   }
 
-  /// Allows kMaxRemovals removals of each row of a level, but freezes rows whose bounds
-  /// are equal.
+  /// Allows kMaxRemovals removals of each row of a level, but freezes rows
+  /// whose bounds are equal.
   void Reset(const Hierarchy& hierarchy, int level) {
     const auto lower = hierarchy.lower(level), upper = hierarchy.upper(level);
     for (int i = 0, rows = hierarchy.num_inequalities(level); i < rows; ++i) {

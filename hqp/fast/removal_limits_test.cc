@@ -26,7 +26,8 @@ Hierarchy TwoLevels() {
   return hierarchy;
 }
 
-// RemovalLimits agree with a std::map of the removals that are left, after any calls.
+// RemovalLimits agree with a std::map of the removals that are left, after any
+// calls.
 TEST(RemovalLimits, AgreeWithAMap) {
   const Hierarchy hierarchy = TwoLevels();
   RemovalLimits limits({{0, kRows}, {0, kRows}});

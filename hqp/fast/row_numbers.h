@@ -11,13 +11,13 @@
 
 namespace poise {
 
-/// Stores a number of `size` coefficients for some of the inequality rows. A working
-/// set has far fewer rows than all levels have room for, so a row gets its memory when
-/// it is first used. Nothing allocates after construction.
+/// Stores a number of `size` coefficients for some of the inequality rows. A
+/// working set has far fewer rows than all levels have room for, so a row gets
+/// its memory when it is first used. Nothing allocates after construction.
 class RowNumbers {
  public:
-  /// @param max_rows  largest number of rows with a number at the same time. The
-  ///                  numbers of further rows are always zero.
+  /// @param max_rows  largest number of rows with a number at the same time.
+  ///                  The numbers of further rows are always zero.
   RowNumbers(const std::vector<LevelCapacity>& capacity, int max_rows, int size)
       : size_(size),
         numbers_(static_cast<std::size_t>(max_rows) * size),

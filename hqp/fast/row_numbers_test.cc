@@ -12,7 +12,8 @@
 namespace poise {
 namespace {
 
-// A std::map keeps the same numbers. Rows are added and removed, at most `kMostRows` at a time.
+// A std::map keeps the same numbers. Rows are added and removed, at most
+// `kMostRows` at a time.
 TEST(RowNumbers, AgreeWithAMap) {
   constexpr int kMostRows = 7, kSize = 3;
   const std::vector<LevelCapacity> capacity{{2, 5}, {0, 0}, {0, 9}};

@@ -8,8 +8,8 @@
 
 namespace poise {
 
-/// Returns whether two working sets of a level are the same. operator== compares row by
-/// row, which takes 1 % of a solve.
+/// Returns whether two working sets of a level are the same. operator==
+/// compares row by row, which takes 1 % of a solve.
 inline bool AreSame(const std::vector<Side>& side,
                     const std::vector<Side>& other) {
   if (side.size() != other.size()) return false;

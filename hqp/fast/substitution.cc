@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// LexicographicFactorization, third part: solutions, residuals and multipliers by
-// substitution with L, and products with Q.
+// LexicographicFactorization, third part: solutions, residuals and multipliers
+// by substitution with L, and products with Q.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,8 +41,8 @@ void LexicographicFactorization::FindResiduals(const Level& level) {
   for (int i = 0; i < rows; ++i) residual[i] -= target_[first + i];
 }
 
-// Solves the rows of a level for its entries of z. Those of the levels before are
-// given, and `target` is by row of the level.
+// Solves the rows of a level for its entries of z. Those of the levels before
+// are given, and `target` is by row of the level.
 void LexicographicFactorization::SolveRows(const Level& level,
                                            const double* target, double* z) {
   if (!level.has_effective_rows()) return;
@@ -123,8 +123,9 @@ void LexicographicFactorization::Correct(const double* residual, int num_levels,
   }
 }
 
-// Counts the multiply-adds of a substitution with the effective rows of a level, from
-// column `begin` on, and for a deficient level also those with its given rows.
+// Counts the multiply-adds of a substitution with the effective rows of a
+// level, from column `begin` on, and for a deficient level also those with its
+// given rows.
 void LexicographicFactorization::CountTriangle(const Level& level, int begin) {
   const int first = std::max(level.rank_begin, variables_.size());
   const int rank = std::max(level.rank_end - first, 0);
@@ -180,7 +181,8 @@ double LexicographicFactorization::norm_z() const {
 
 double LexicographicFactorization::Gradient(int level, double* gradient) {
   const Level& of = levels_[level];
-  // If the levels before determine y, the gradient is a sum of the rows themselves.
+  // If the levels before determine y, the gradient is a sum of the rows
+  // themselves.
   const bool is_determined = IsDetermined(of);
   double* sum = is_determined ? packed_.data() : gradient;
   std::fill_n(sum, of.rank_begin, 0);

@@ -31,11 +31,11 @@ constexpr double kSolutionRounding = 1e-13;
 /// 20 instead of 18 of 3000 hierarchies with rows from 1e-3 to 1e6 fail.
 constexpr double kZeroMultiplier = 1e-13;
 
-/// Search: a factor of a combination of rows below this part of the largest one, or in an
-/// exchange below this part of the row's length, is zero. A row that is removed for a tiny
-/// factor would be far inside its bound at the next optimum. Chosen: 1e-7 and 1e-2 change
-/// the worst solves of falls by factors from 0.9 to 1.9
-/// (docs/notebook/2026-11-29-dependent-rows.md).
+/// Search: a factor of a combination of rows below this part of the largest
+/// one, or in an exchange below this part of the row's length, is zero. A row
+/// that is removed for a tiny factor would be far inside its bound at the next
+/// optimum. Chosen: 1e-7 and 1e-2 change the worst solves of falls by factors
+/// from 0.9 to 1.9 (docs/notebook/2026-11-29-dependent-rows.md).
 constexpr double kZeroFactor = 1e-4;
 
 /// Input: a row is zero if its weight times its squared norm is below this. The
@@ -43,9 +43,10 @@ constexpr double kZeroFactor = 1e-4;
 /// factors.
 constexpr double kZeroRow = 1e-300;
 
-/// Working set: a row whose bound is beyond this is not kept from the last solve, and is not
-/// flipped. At such a large y, the other rows, with terms near 1, lose all 15 digits to
-/// rounding. Ten times larger or smaller, no count changes.
+/// Working set: a row whose bound is beyond this is not kept from the last
+/// solve, and is not flipped. At such a large y, the other rows, with terms
+/// near 1, lose all 15 digits to rounding. Ten times larger or smaller, no
+/// count changes.
 constexpr double kInfiniteBound = 1e15;
 
 /// Factorisation: a projection that leaves less than this part of a row's
@@ -55,16 +56,17 @@ constexpr double kReorthogonalize = 0.5;
 
 /// Factorisation: least part of a new row that is independent of the others, if
 /// the row is to be appended by an update. An update then loses at most three
-/// digits; below that the level is factored anew. Also for a combination of rows: the least
-/// part of a row that does not depend on them. Also for the diagonal levels: least
-/// part of a new row of T/d, and least pivot of T_cc after a row was removed. Chosen:
-/// ten times larger or smaller changes one count of 3000 by one, and the time.
+/// digits; below that the level is factored anew. Also for a combination of
+/// rows: the least part of a row that does not depend on them. Also for the
+/// diagonal levels: least part of a new row of T/d, and least pivot of T_cc
+/// after a row was removed. Chosen: ten times larger or smaller changes one
+/// count of 3000 by one, and the time.
 constexpr double kIndependentPart = 1e-3;
 
 /// Factorisation: a kept remainder above this is orthogonal to the merged
-/// levels to within three digits of rounding, and is not projected again. An update
-/// of the merged levels loses as many digits (kIndependentPart). Chosen: a value of 1
-/// projects all of them again, and changes no count.
+/// levels to within three digits of rounding, and is not projected again. An
+/// update of the merged levels loses as many digits (kIndependentPart). Chosen:
+/// a value of 1 projects all of them again, and changes no count.
 constexpr double kCleanRemainder = 1e-3;
 
 /// Factorisation: a downdated squared norm that is below this part of its last
@@ -93,9 +95,10 @@ constexpr double kZeroEntry = 1e-15;
 /// sum of a hundred terms. Ten times smaller, one of 3000 hierarchies changes.
 constexpr double kZeroGradient = 1e-13;
 
-/// Diagonal levels: a sum of rows, of unit length, whose remainder is below this lies in
-/// a row space. The value is the rounding of a sum of a hundred terms. One of 24 rows may
-/// then be outside by 1.5e-13. Ten times larger or smaller, no count changes.
+/// Diagonal levels: a sum of rows, of unit length, whose remainder is below
+/// this lies in a row space. The value is the rounding of a sum of a hundred
+/// terms. One of 24 rows may then be outside by 1.5e-13. Ten times larger or
+/// smaller, no count changes.
 constexpr double kSameRowSpace = 2e-14;
 
 /// Diagonal levels: squared weights of one level that differ by more than this

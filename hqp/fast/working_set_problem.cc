@@ -246,8 +246,9 @@ void WorkingSetProblem::FactorLevel(const Hierarchy& hierarchy,
   factored_[level] = side;
 }
 
-// Calls use(row, metric, number) for the rows of a level that are not zero and whose span
-// is selected: for the equalities, and then for the inequalities in the working set.
+// Calls use(row, metric, number) for the rows of a level that are not zero and
+// whose span is selected: for the equalities, and then for the inequalities in
+// the working set.
 template <typename Selects, typename Use>
 void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
                                    const std::vector<Side>& side, int level,
@@ -272,9 +273,10 @@ void WorkingSetProblem::ForEachRow(const Hierarchy& hierarchy,
   }
 }
 
-// Factors the first `met` levels, merged, and then the others. Returns false, without
-// a level that is factored, if no row of the first ones fixes a variable, if one of
-// their rows depends on others, or if there are no multiply-adds left.
+// Factors the first `met` levels, merged, and then the others. Returns false,
+// without a level that is factored, if no row of the first ones fixes a
+// variable, if one of their rows depends on others, or if there are no
+// multiply-adds left.
 bool WorkingSetProblem::FactorMerged(const Hierarchy& hierarchy,
                                      const std::vector<std::vector<Side>>& side,
                                      int met) {

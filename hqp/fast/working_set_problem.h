@@ -51,10 +51,10 @@ class WorkingSetProblem {
   };
 
   /// Reads a hierarchy's sizes and the norms of its rows, and checks its
-  /// numbers as CheckInput() does: kNotFinite if one is not finite or too large, or a bound
-  /// infinite on the wrong side; kBadInput if lower > upper, a weight is negative, or it has more
-  /// rows or other variables than there is room for. failed_level is the first
-  /// such level.
+  /// numbers as CheckInput() does: kNotFinite if one is not finite or too
+  /// large, or a bound infinite on the wrong side; kBadInput if lower > upper,
+  /// a weight is negative, or it has more rows or other variables than there is
+  /// room for. failed_level is the first such level.
   Status Read(const Hierarchy& hierarchy, int* failed_level);
 
   /// Forgets which levels were met.
@@ -73,14 +73,14 @@ class WorkingSetProblem {
   /// UseLeading() for all leading levels of the last Plan().
   void UseAllLeading() { UseLeading(planned_leading_); }
 
-  /// Leaves out the levels that the last SolveLeading() has not solved, until the
-  /// next Plan().
+  /// Leaves out the levels that the last SolveLeading() has not solved, until
+  /// the next Plan().
   void LeaveOutUnsolved();
 
-  /// Solves for the working set `side`, by level. The first time after Plan(), the
-  /// levels that were met last time may be merged. After that, the last factorisation
-  /// is updated where that is accurate. The factored rows are then not in the order of
-  /// their levels.
+  /// Solves for the working set `side`, by level. The first time after Plan(),
+  /// the levels that were met last time may be merged. After that, the last
+  /// factorisation is updated where that is accurate. The factored rows are
+  /// then not in the order of their levels.
   void Solve(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side) {
     SolveLeading(hierarchy, side);
@@ -96,8 +96,8 @@ class WorkingSetProblem {
     return true;
   }
 
-  /// SolveLeading() after Plan(), and MoveToFirstLevels() for y, which is the start of
-  /// a search.
+  /// SolveLeading() after Plan(), and MoveToFirstLevels() for y, which is the
+  /// start of a search.
   void Start(const Hierarchy& hierarchy,
              const std::vector<std::vector<Side>>& side,
              std::vector<double>* y);
@@ -105,9 +105,10 @@ class WorkingSetProblem {
   /// Solve() in two steps: the factorisation of the leading levels, and then y.
   void SolveLeading(const Hierarchy& hierarchy,
                     const std::vector<std::vector<Side>>& side);
-  /// SolveLeading(), but the factorisation of levels stops when the budget has no
-  /// multiply-adds left. The levels before stay, and those after them are left out. Returns
-  /// false in this case, and spends the budget. Updates of merged rows do not stop.
+  /// SolveLeading(), but the factorisation of levels stops when the budget has
+  /// no multiply-adds left. The levels before stay, and those after them are
+  /// left out. Returns false in this case, and spends the budget. Updates of
+  /// merged rows do not stop.
   [[nodiscard]] bool SolveLeadingWithin(
       const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
       Budget* budget);
@@ -122,8 +123,8 @@ class WorkingSetProblem {
     Approach(y, leading_.num_levels());
   }
 
-  /// Approach() for the first `num_levels` leading levels. If they are merged with
-  /// later ones, y is the optimum of all merged levels.
+  /// Approach() for the first `num_levels` leading levels. If they are merged
+  /// with later ones, y is the optimum of all merged levels.
   void Approach(const std::vector<double>& y, int num_levels);
 
   /// Returns the number of first levels, all leading, without inequalities. No
@@ -131,8 +132,8 @@ class WorkingSetProblem {
   int NumFirstLevels(const Hierarchy& hierarchy) const;
 
   /// Moves y to the closest optimum of these first levels.
-  /// pre: Solve() has factored them in their order, neither updated nor merged with
-  /// later levels; Start() sees to it.
+  /// pre: Solve() has factored them in their order, neither updated nor merged
+  /// with later levels; Start() sees to it.
   void MoveToFirstLevels(const Hierarchy& hierarchy, std::vector<double>* y);
 
   /// Iterative refinement: reduces the residuals of the rows as given, until
@@ -157,12 +158,12 @@ class WorkingSetProblem {
   /// norm of y is level num_levels().
   void FindMultipliers(int end);
 
-  /// Computes the multipliers of the leading levels after Approach(y), and those of
-  /// the distance to y as level num_leading().
+  /// Computes the multipliers of the leading levels after Approach(y), and
+  /// those of the distance to y as level num_leading().
   void FindMultipliersOfApproach(const std::vector<double>& y);
 
-  /// Computes the multipliers of all levels, and of the norm of y. If levels are
-  /// left out, those of the others.
+  /// Computes the multipliers of all levels, and of the norm of y. If levels
+  /// are left out, those of the others.
   void FindAllMultipliers() {
     FindMultipliers(is_diagonal_solved_ ? num_levels_ + 1 : num_levels_);
   }
@@ -173,8 +174,8 @@ class WorkingSetProblem {
   void RefineMultipliers(const Hierarchy& hierarchy);
 
   /// Finds LevelSolution::trade_off for a level.
-  /// @return  the last deficient level above on which this level has multipliers, or -1
-  ///          if there is none.
+  /// @return  the last deficient level above on which this level has
+  ///          multipliers, or -1 if there is none.
   /// pre: FindMultipliers().
   int FindTradeOff(int level, double* trade_off);
 
@@ -184,11 +185,11 @@ class WorkingSetProblem {
     double* factors;
     double remainder;  ///< Length of the part that is not in the sum.
   };
-  /// Finds the combination of the leading rows that is closest to `row`, of num_variables
-  /// numbers. Has no factors if the remainder is above kIndependentPart of the length of
-  /// `row`. If the leading rows depend on each other, the factors are not unique. They are
-  /// valid until the next call.
-  /// pre: SolveLeading().
+  /// Finds the combination of the leading rows that is closest to `row`, of
+  /// num_variables numbers. Has no factors if the remainder is above
+  /// kIndependentPart of the length of `row`. If the leading rows depend on
+  /// each other, the factors are not unique. They are valid until the next
+  /// call. pre: SolveLeading().
   [[nodiscard]] Combination FindCombination(const double* row);
 
   /// Multiplier of an inequality row in a level's optimality condition.
@@ -202,8 +203,8 @@ class WorkingSetProblem {
     return is_zero ? 0 : sign * of.nu[row];
   }
 
-  /// Work since Read(). Products with all rows are not in its multiply-adds: they
-  /// are the same in each iteration.
+  /// Work since Read(). Products with all rows are not in its multiply-adds:
+  /// they are the same in each iteration.
   Work work() const {
     Work work = work_;
     work.multiply_adds =
@@ -211,8 +212,8 @@ class WorkingSetProblem {
     return work;
   }
 
-  /// Returns work(), but with the inequalities of `side`, which are solved next: the time
-  /// after the search depends on their number.
+  /// Returns work(), but with the inequalities of `side`, which are solved
+  /// next: the time after the search depends on their number.
   Work WorkWith(const Hierarchy& hierarchy,
                 const std::vector<std::vector<Side>>& side) const;
 
@@ -304,8 +305,9 @@ class WorkingSetProblem {
 
   int n_;
   int num_levels_ = 0, num_leading_ = 0;
-  /// Largest number of leading levels before the first deficient one, of all solutions
-  /// since Plan(). Until the first solution it is that of the last plan.
+  /// Largest number of leading levels before the first deficient one, of all
+  /// solutions since Plan(). Until the first solution it is that of the last
+  /// plan.
   int num_met_ = 0;
   bool is_planned_ = false;  ///< No solution since Plan().
   bool is_factored_ = false;

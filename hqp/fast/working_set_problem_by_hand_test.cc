@@ -86,8 +86,8 @@ TEST_F(WorkingSetProblemReadTest, FindsTheFirstLevelWithABadNumber) {
   ExpectStatus(b_[1] + 1, 0, Status::kBadInput, 0);
 }
 
-// Equalities do not count as active. The counts begin with Read(). The sum is that of all
-// solutions.
+// Equalities do not count as active. The counts begin with Read(). The sum is
+// that of all solutions.
 TEST_F(WorkingSetProblemReadTest, CountsSolutionsAndActiveInequalities) {
   int failed_level;
   for (int twice = 0; twice < 2; ++twice) {
@@ -349,8 +349,8 @@ TEST(WorkingSetProblem, ForgetsTheRowsOfAnotherProblem) {
   }
 }
 
-// Level 0 has twelve equalities. Level 1 has a bound of each variable and a row that depends
-// on two of them.
+// Level 0 has twelve equalities. Level 1 has a bound of each variable and a row
+// that depends on two of them.
 class ManyChangesTest : public testing::Test {
  protected:
   static constexpr int kVariables = 40, kEqualities = 12;
@@ -375,7 +375,8 @@ class ManyChangesTest : public testing::Test {
     if (last) sides[1].back() = Side::kUpper;
     return sides;
   }
-  // Solves for `sides`, after `before` if it is given, in `work` multiply-adds. Returns y.
+  // Solves for `sides`, after `before` if it is given, in `work` multiply-adds.
+  // Returns y.
   std::vector<double> Solve(const Sides* before, const Sides& sides,
                             std::int64_t* work) const {
     WorkingSetProblem problem(kVariables, capacity_);
@@ -388,8 +389,9 @@ class ManyChangesTest : public testing::Test {
     *work = problem.work().multiply_adds - start;
     return problem.y();
   }
-  // Expects that the change to `after` takes at most a quarter more work than a solution from
-  // the start, for rows that have been found to depend on others, with the same result.
+  // Expects that the change to `after` takes at most a quarter more work than a
+  // solution from the start, for rows that have been found to depend on others,
+  // with the same result.
   void ExpectFast(const Sides& before, const Sides& after) const {
     std::int64_t fresh, update;
     const std::vector<double> expected = Solve(nullptr, after, &fresh);
@@ -410,13 +412,14 @@ TEST_F(ManyChangesTest, FactorsAgainIfManyRowsFixVariables) {
   ExpectFast(First(26, false), First(2, false));
 }
 
-// The last row depends on the first two. The rows of its level are then not merged.
+// The last row depends on the first two. The rows of its level are then not
+// merged.
 TEST_F(ManyChangesTest, FactorsAgainIfManyRowsAreNotMergedAnyMore) {
   ExpectFast(First(26, false), First(26, true));
 }
 
-// The factorisation of level 1 is interrupted, again and again a bit later. The equalities
-// are met then, and the next solution is as without an interruption.
+// The factorisation of level 1 is interrupted, again and again a bit later. The
+// equalities are met then, and the next solution is as without an interruption.
 TEST_F(ManyChangesTest, KeepsTheEqualitiesIfALaterLevelIsInterrupted) {
   const std::function<double()> no_clock;
   const Sides sides = First(20, true);

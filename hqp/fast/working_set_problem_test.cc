@@ -259,7 +259,8 @@ TEST_P(RandomWorkingSetProblemTest, AgreesWithSingularValues) {
     CheckMultipliers(false);
     problem_.Refine(hierarchy_);
     Check(sides, levels, zero_);
-    // Refinement moves y by rounding, so that the multipliers from before will do.
+    // Refinement moves y by rounding, so that the multipliers from before will
+    // do.
     problem_.RefineMultipliers(hierarchy_);
     CheckMultipliers(true);
     problem_.FindMultipliers(levels + 1);
@@ -281,8 +282,8 @@ TEST_P(RandomWorkingSetProblemTest, UpdatesAreAsExactAsANewFactorisation) {
   Check(MakeSides(5), num_levels_, zero_);
 }
 
-// With a budget without multiply-adds, no level that needs any is solved, and the next
-// solution is as if there had been no interruption.
+// With a budget without multiply-adds, no level that needs any is solved, and
+// the next solution is as if there had been no interruption.
 TEST_P(RandomWorkingSetProblemTest, SolvesAgainAfterAnInterruption) {
   const std::function<double()> no_clock;
   problem_.Plan(hierarchy_, num_levels_);
@@ -414,8 +415,8 @@ TEST_P(RandomWorkingSetProblemTest, ApproachesTheOptimumOfTheLeadingLevels) {
   EXPECT_LE((step - Q.transpose() * (Q * step)).norm(), tolerance);
 }
 
-// The first leading levels alone are approached as if there were no others, or, if
-// they are merged with later ones, together with these.
+// The first leading levels alone are approached as if there were no others, or,
+// if they are merged with later ones, together with these.
 TEST_P(RandomWorkingSetProblemTest, ApproachesTheFirstLeadingLevels) {
   const Sides sides = MakeSides(3);
   problem_.Plan(hierarchy_, num_levels_);
@@ -460,8 +461,8 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheMultipliersOfAnApproach) {
             Rounding(size + y().norm() + n_, kMaxRows));
 }
 
-// Along a trade-off p, the rows of the traded level change by W^-1 lambda, and those of
-// the levels above do not change.
+// Along a trade-off p, the rows of the traded level change by W^-1 lambda, and
+// those of the levels above do not change.
 TEST_P(RandomWorkingSetProblemTest, FindsDirectionsThatTrade) {
   const Sides sides = MakeSides(1);
   problem_.Plan(hierarchy_, num_levels_);
@@ -495,8 +496,9 @@ TEST_P(RandomWorkingSetProblemTest, FindsDirectionsThatTrade) {
   }
 }
 
-// A random combination of the leading rows is found again, as a sum: if rows depend on each
-// other, the factors are not unique. A row with a part outside of their span is not found.
+// A random combination of the leading rows is found again, as a sum: if rows
+// depend on each other, the factors are not unique. A row with a part outside
+// of their span is not found.
 TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
   const Sides sides = MakeSides(1);
   problem_.Plan(hierarchy_, num_levels_);
@@ -522,8 +524,8 @@ TEST_P(RandomWorkingSetProblemTest, FindsTheCombinationOfARow) {
   const double rank_tolerance =
       n_ * std::numeric_limits<double>::epsilon() * svd.sigma[0];
   if ((svd.sigma.array() > rank_tolerance).count() == n_) return;
-  // The last left singular vector is orthogonal to all rows. A part of 1e-3 of the row is
-  // allowed to be so.
+  // The last left singular vector is orthogonal to all rows. A part of 1e-3 of
+  // the row is allowed to be so.
   const Eigen::VectorXd outside = svd.U.col(n_ - 1);
   for (const double part : {0.5, 2.0, 1000.0}) {
     const Eigen::VectorXd other =
@@ -622,9 +624,9 @@ TEST_P(RandomWorkingSetProblemTest, LeavesOutWhatIsNotSolved) {
   }
 }
 
-// Most inequalities bound one variable. A problem that was solved before factors
-// the levels that it has met at once, with fixed variables. It then finds the
-// optimum of a new problem, and the same step to the first levels.
+// Most inequalities bound one variable. A problem that was solved before
+// factors the levels that it has met at once, with fixed variables. It then
+// finds the optimum of a new problem, and the same step to the first levels.
 TEST(FixedVariablesOfAWorkingSet, GiveTheOptimumOfANewProblem) {
   int num_fixed = 0, num_moved = 0;
   for (int seed = 0; seed < kSeeds; ++seed) {

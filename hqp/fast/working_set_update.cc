@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// WorkingSetProblem: updates of the leading levels after a change of the working set.
+// WorkingSetProblem: updates of the leading levels after a change of the
+// working set.
 #include <algorithm>
 
 #include "poise/hqp/fast/same_sides.h"
@@ -11,8 +12,9 @@ namespace poise {
 // first deficient one, single rows are removed and appended instead: all rows
 // before the first deficient level are met, so their order does not matter. If
 // rows only go to their other bounds, the levels are only solved again.
-// Returns false if the first level must be factored again. If a row has been found to depend
-// on others, this reduces `mergeable`, the largest number of levels that may be merged then.
+// Returns false if the first level must be factored again. If a row has been
+// found to depend on others, this reduces `mergeable`, the largest number of
+// levels that may be merged then.
 bool WorkingSetProblem::Update(const Hierarchy& hierarchy,
                                const std::vector<std::vector<Side>>& side,
                                int* mergeable) {
@@ -65,9 +67,10 @@ void WorkingSetProblem::SetSide(const Hierarchy& hierarchy, int a, Side side) {
   factored_[row.level][row.index] = side;
 }
 
-// Updates levels of which the first `met` have the same rows as before, some of them with
-// another side from level `from` on. Their factors stay, so that they are only solved
-// again. Later levels are factored again from the first one that has changed.
+// Updates levels of which the first `met` have the same rows as before, some of
+// them with another side from level `from` on. Their factors stay, so that they
+// are only solved again. Later levels are factored again from the first one
+// that has changed.
 void WorkingSetProblem::ChangeSides(const Hierarchy& hierarchy,
                                     const std::vector<std::vector<Side>>& side,
                                     int from, int met) {
@@ -87,8 +90,8 @@ void WorkingSetProblem::ChangeSides(const Hierarchy& hierarchy,
   if (changed < num_leading_) FactorFrom(hierarchy, side, changed, true);
 }
 
-// Returns the number of rows of the first `met` levels that must be removed or appended. A
-// row that goes to its other bound only gets another target.
+// Returns the number of rows of the first `met` levels that must be removed or
+// appended. A row that goes to its other bound only gets another target.
 int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
                                   int met) const {
   int changes = 0;
@@ -103,10 +106,11 @@ int WorkingSetProblem::NumChanges(const std::vector<std::vector<Side>>& side,
   return changes;
 }
 
-// Returns whether factoring the first `met` levels for a working set takes less work than
-// removing `changes` rows from merged levels of this rank, or appending them. A change
-// takes about one rotation for two of the rows that fix no variable, and a rotation takes
-// four multiply-adds a column. The factorisation takes two for each pair of such rows.
+// Returns whether factoring the first `met` levels for a working set takes less
+// work than removing `changes` rows from merged levels of this rank, or
+// appending them. A change takes about one rotation for two of the rows that
+// fix no variable, and a rotation takes four multiply-adds a column. The
+// factorisation takes two for each pair of such rows.
 bool WorkingSetProblem::IsFactoringFaster(
     const Hierarchy& hierarchy, const std::vector<std::vector<Side>>& side,
     int met, int rank, int changes) const {
@@ -131,9 +135,9 @@ bool WorkingSetProblem::IsFactoringFaster(
   return of_changes > 1.0 * rows_after * rows_after * columns_after;
 }
 
-// Appends the new rows of the first `met` levels, which are merged. If a row depends on
-// others, removes the levels that cannot be merged, and reduces `met`. Returns false if the
-// remaining levels must be factored again.
+// Appends the new rows of the first `met` levels, which are merged. If a row
+// depends on others, removes the levels that cannot be merged, and reduces
+// `met`. Returns false if the remaining levels must be factored again.
 bool WorkingSetProblem::AppendAll(const Hierarchy& hierarchy,
                                   const std::vector<std::vector<Side>>& side,
                                   int* met) {
@@ -143,7 +147,8 @@ bool WorkingSetProblem::AppendAll(const Hierarchy& hierarchy,
         continue;
       }
       while (!AppendInequality(hierarchy, level, i, side[level][i])) {
-        // It depends on rows of this level and those before, or also of later ones.
+        // It depends on rows of this level and those before, or also of later
+        // ones.
         *met = *met > level + 1 ? level + 1 : level;
         if (*met == 0 || !RemoveLevels(hierarchy, side, *met)) return false;
         if (*met == level) return true;
@@ -167,8 +172,9 @@ bool WorkingSetProblem::AppendInequality(const Hierarchy& hierarchy, int level,
   return leading_.AppendFixedVariable(variable, from[variable] / row.norm);
 }
 
-// Removes the rows of `level` and of later levels from the merged levels. Returns false,
-// without a change, if factoring the others again takes less work.
+// Removes the rows of `level` and of later levels from the merged levels.
+// Returns false, without a change, if factoring the others again takes less
+// work.
 bool WorkingSetProblem::RemoveLevels(const Hierarchy& hierarchy,
                                      const std::vector<std::vector<Side>>& side,
                                      int level) {

@@ -467,8 +467,8 @@ TEST_P(CascadeByHandTest, EndsWhereMultipliersAreRounding) {
       Rounding(4, 4));
 }
 
-// In the nullspace of level 0, both rows of level 1 are within rounding of zero,
-// each by itself, but not together. The level then has no step.
+// In the nullspace of level 0, both rows of level 1 are within rounding of
+// zero, each by itself, but not together. The level then has no step.
 TEST_P(CascadeByHandTest, TakesNoStepAlongRowsThatAreRounding) {
   const std::vector<LevelCapacity> capacity{{1, 1}, {1, 1}};
   HierarchyCase drawn{capacity, Hierarchy(3, capacity)};

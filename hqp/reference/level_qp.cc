@@ -61,8 +61,9 @@ class LeastSquares {
         parts_(place, e) = factor_[i] * part[e];
       }
     }
-    // Every row can be within rounding of zero, by its own norm, although the SVD
-    // of the scaled rows finds a rank. Dividing by such a row would give NaN.
+    // Every row can be within rounding of zero, by its own norm, although the
+    // SVD of the scaled rows finds a rank. Dividing by such a row would give
+    // NaN.
     if (parts_.isZero(0)) {
       rank_ = 0;
       return;

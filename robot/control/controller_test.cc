@@ -260,8 +260,8 @@ TEST_F(ControllerTest, ReportsTheGapOfEachPriorityLevel) {
   EXPECT_TRUE(std::isnan(gap[0]));  // No tick was solved yet.
   ASSERT_TRUE(controller_.stack().SetLevel("posture", 7));
   Update();
-  // Level 1 is met to rounding, and the gap is at most the cost: the square of residuals
-  // that are far below 1e-4.
+  // Level 1 is met to rounding, and the gap is at most the cost: the square of
+  // residuals that are far below 1e-4.
   EXPECT_LT(gap[0], 1e-9);
   EXPECT_TRUE(std::isfinite(gap[6]));
   EXPECT_TRUE(std::isnan(gap[7]));
@@ -270,8 +270,8 @@ TEST_F(ControllerTest, ReportsTheGapOfEachPriorityLevel) {
   EXPECT_TRUE(std::isnan(gap[6]));  // The solver did not run.
 }
 
-// Reports a solution whose gaps are 1, 2, ... on the levels of the hierarchy of the last
-// tick. Returns TickReport::gap, with 0 for NaN.
+// Reports a solution whose gaps are 1, 2, ... on the levels of the hierarchy of
+// the last tick. Returns TickReport::gap, with 0 for NaN.
 std::vector<double> ReportGaps(const Controller& controller) {
   const Stack& stack = controller.stack();
   Solution solution(controller.hierarchy().num_variables(), stack.capacity());

@@ -124,8 +124,8 @@ Stack MakeDefaultStack(const Robot& robot,
   stack.Add(std::make_unique<ZmpLiteralTask>(tree, feet), {kOff, 3, 1});
 
   stack.Add(std::make_unique<CapturePointTask>(tree, feet), {kOff, 3, 1});
-  // The last task of its level: its rows are added and removed, and the solver starts
-  // from the working set of the last tick by index.
+  // The last task of its level: its rows are added and removed, and the solver
+  // starts from the working set of the last tick by index.
   stack.Add(std::make_unique<SelfCollisionTask>(robot), {kOn, 3, 1});
 
   stack.Add(std::make_unique<MomentumTask>(tree, feet), {kOn, 4, 1});

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// Tests that the controller does not turn the feet before they touch the ground.
+// Tests that the controller does not turn the feet before they touch the
+// ground.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -69,7 +70,8 @@ TEST_F(FirstTouchTest, RestrictsTheWrenchUntilAFootTouches) {
   EXPECT_LT(share(), 0.2);
 }
 
-// The floor is 3 mm higher than its estimate: the soles rest above the estimate.
+// The floor is 3 mm higher than its estimate: the soles rest above the
+// estimate.
 TEST_F(FirstTouchTest, FindsGroundThatIsHigherThanItsEstimate) {
   StartAbove(0.003);
   for (int i = 0; i < 10; ++i) Update();

@@ -72,8 +72,8 @@ constexpr double kStepNear = 0.03;      // m.
 constexpr double kUntouchedShare = 0.1;
 
 // A sole touches the ground with its lowest corner below kTouch. If the ground
-// is higher than its estimate, the sole is slower than kFalling after kFallTime:
-// a foot that nothing holds then falls twice as fast.
+// is higher than its estimate, the sole is slower than kFalling after
+// kFallTime: a foot that nothing holds then falls twice as fast.
 constexpr double kTouch = 0.0001;    // m.
 constexpr double kFalling = 0.015;   // m/s.
 constexpr double kFallTime = 0.003;  // s.

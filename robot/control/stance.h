@@ -51,9 +51,9 @@ struct StanceSettings {
 /// the body without a reference. In this case, a foot is in contact as soon as
 /// an edge touches the ground, with its full normal force.
 ///
-/// After Reset(), the feet count as in contact before one touches the ground, so
-/// that the legs reach for it. Until then, ContactTick::wrench_share is small: a
-/// moment on a foot in the air would turn the foot.
+/// After Reset(), the feet count as in contact before one touches the ground,
+/// so that the legs reach for it. Until then, ContactTick::wrench_share is
+/// small: a moment on a foot in the air would turn the foot.
 class Stance {
  public:
   /// Range of the height argument of Lift(), m.
@@ -82,8 +82,8 @@ class Stance {
   /// Returns false, and does nothing, if the height is out of its range.
   [[nodiscard]] bool Lift(int foot, double height) noexcept;
 
-  /// Puts a foot down at the place where it took off; a released or stepping foot
-  /// returns there first. A foot that is still unloading is loaded again.
+  /// Puts a foot down at the place where it took off; a released or stepping
+  /// foot returns there first. A foot that is still unloading is loaded again.
   void PutDown(int foot) noexcept;
 
   /// Releases a foot at once: its reference is switched off, and the foot moves

@@ -526,8 +526,8 @@ TEST_F(StanceTest, KeepsFootInAirThatIsReleasedAndCalledBackAtOnce) {
         Update();
         ASSERT_FALSE(contacts_[0].in_contact);
       }
-      // The reference of a foot that is put down ends 5 mm below the ground. The
-      // tolerance is for rounding of 500 steps: 500 eps of 2 m are 2e-13 m.
+      // The reference of a foot that is put down ends 5 mm below the ground.
+      // The tolerance is for rounding of 500 steps: 500 eps of 2 m are 2e-13 m.
       const Vector3d end(0, 0, height > 0 ? height : -0.005);
       EXPECT_LT((reference_.feet[0].X_WF.p - place - end).norm(), 1e-9);
     }

@@ -127,8 +127,8 @@ class Task {
 
   /// Writes the rows B y + b = 0 and lower <= C y <= upper of this tick.
   /// @param equalities    as many rows as equality_names(); B and b are zero.
-  /// @param inequalities  as many rows as inequality_names(); C is zero, and the
-  ///                      bounds are infinite.
+  /// @param inequalities  as many rows as inequality_names(); C is zero, and
+  ///                      the bounds are infinite.
   /// Does not allocate.
   virtual void Write(const TaskInput& input, EqualityBlock* equalities,
                      InequalityBlock* inequalities) const noexcept = 0;

@@ -16,8 +16,8 @@ struct ActiveRow {
   int task;   ///< Index for Stack::task().
   int row;    ///< Index into Task::inequality_names().
   Side side;  ///< Active bound.
-  /// The row's own level if it has a slack, else the first solved level with a multiplier on
-  /// the row.
+  /// The row's own level if it has a slack, else the first solved level with a
+  /// multiplier on the row.
   int pressing_level;
   double multiplier;  ///< Absolute multiplier of pressing_level.
   double slack;       ///< Violation of the row, in the scale of the row.
@@ -68,9 +68,10 @@ struct TickReport {
   /// Rows that are violated, except those of the last level.
   std::vector<LostRow> lost;
   Certificate certificate;  ///< Certificate of the solution.
-  /// LevelSolution::gap of priority level i + 1. NaN if the hierarchy has no such
-  /// level, and if the solver did not run. With one weighted QP, all levels below the
-  /// first one are one level of the hierarchy, at the second one in use.
+  /// LevelSolution::gap of priority level i + 1. NaN if the hierarchy has no
+  /// such level, and if the solver did not run. With one weighted QP, all
+  /// levels below the first one are one level of the hierarchy, at the second
+  /// one in use.
   std::vector<double> gap;
 
   /// Resets the numbers of the solution, for a tick in which the solver did not

@@ -18,8 +18,8 @@
 namespace poise {
 namespace {
 
-// The humanoid with its feet bolted down, and a controller whose clock can cut off each
-// solve after two iterations, the fewest that a limit of time allows.
+// The humanoid with its feet bolted down, and a controller whose clock can cut
+// off each solve after two iterations, the fewest that a limit of time allows.
 class TruncatedTicksTest : public ControllerTest {
  protected:
   TruncatedTicksTest() : hasty_(robot_, Options()), plant_(hasty_) {
@@ -42,8 +42,8 @@ class TruncatedTicksTest : public ControllerTest {
   const TickReport& report() const { return hasty_.report(); }
   const Hierarchy& hierarchy() const { return hasty_.hierarchy(); }
 
-  // Returns the answer of a solver that was never cut off, to the problem of the last
-  // tick.
+  // Returns the answer of a solver that was never cut off, to the problem of
+  // the last tick.
   Solution Optimum() const {
     const std::vector<LevelCapacity> capacity = hasty_.stack().capacity();
     Solution solution(hierarchy().num_variables(), capacity);
@@ -56,7 +56,8 @@ class TruncatedTicksTest : public ControllerTest {
   void ExpectLevelsAboveHold() const;
   void ExpectTorqueLimits() const;
 
-  // A controller at 1 kHz [s]. Any other budget would do: the clock is made here.
+  // A controller at 1 kHz [s]. Any other budget would do: the clock is made
+  // here.
   static constexpr double kDt = 1e-3, kBudget = 1e-3;
 
   double seconds_ = 0, seconds_per_reading_ = 0;
@@ -81,7 +82,8 @@ void TruncatedTicksTest::ExpectTruncatedReport() const {
   EXPECT_EQ(report().iterations, 2);
   EXPECT_GT(report().failed_level, 1);
   EXPECT_LE(report().certificate.worst(), Certifier::kCertified);
-  // A row is reported for its own slack, or for the multiplier of a level with an optimum.
+  // A row is reported for its own slack, or for the multiplier of a level with
+  // an optimum.
   for (const ActiveRow& row : report().active) {
     if (row.pressing_level == report().tasks[row.task].level) continue;
     EXPECT_LT(row.pressing_level, report().failed_level)
@@ -89,8 +91,8 @@ void TruncatedTicksTest::ExpectTruncatedReport() const {
   }
 }
 
-// Compares the costs of the reported y with those of the optimum. The gap is a bound down
-// to the failed level, where it is the whole cost.
+// Compares the costs of the reported y with those of the optimum. The gap is a
+// bound down to the failed level, where it is the whole cost.
 void TruncatedTicksTest::ExpectLevelsAboveHold() const {
   const Solution optimum = Optimum();
   Solution reported = optimum;
@@ -108,8 +110,8 @@ void TruncatedTicksTest::ExpectLevelsAboveHold() const {
       EXPECT_NEAR(gap, cost, Certifier::kCertified * cost);
     } else {
       EXPECT_LE(cost - optimum.levels[level].cost, gap);
-      // These levels are met to rounding, and the gap is at most the cost: the square of
-      // residuals that are far below 1e-4.
+      // These levels are met to rounding, and the gap is at most the cost: the
+      // square of residuals that are far below 1e-4.
       EXPECT_LE(gap, 1e-9);
     }
   }
@@ -121,17 +123,17 @@ void TruncatedTicksTest::ExpectTorqueLimits() const {
   for (int j = 0; j < tree().num_joints(); ++j) {
     const double effort = robot_.model.limits[j].effort;
     EXPECT_LE(std::abs(command_.tau[j]), effort) << j;
-    // The limits are on level 2. A solution meets a row to 1e-9 |C_i| |y|, and |y| is
-    // below 1e3.
+    // The limits are on level 2. A solution meets a row to 1e-9 |C_i| |y|, and
+    // |y| is below 1e3.
     if (report().failed_level > 2) {
       EXPECT_LE(std::abs(tau[j]), effort * (1 + 1e-6)) << j;
     }
   }
 }
 
-// The reference of the center of mass jumps in each tick, so that each search has to
-// change many rows of the working set. After 24 such solves, one search starts from an
-// empty working set.
+// The reference of the center of mass jumps in each tick, so that each search
+// has to change many rows of the working set. After 24 such solves, one search
+// starts from an empty working set.
 TEST_F(TruncatedTicksTest, KeepTheLevelsAboveAndEndWithTheBudget) {
   Update(false);
   ASSERT_EQ(command_.status, TickStatus::kOk);
@@ -148,7 +150,8 @@ TEST_F(TruncatedTicksTest, KeepTheLevelsAboveAndEndWithTheBudget) {
     that_lose_momentum_only += report().failed_level == 4;
     Simulate();
   }
-  // Limits and feet come before momentum, but in the search from an empty working set.
+  // Limits and feet come before momentum, but in the search from an empty
+  // working set.
   EXPECT_GE(that_lose_momentum_only, kTicks - 1);
   Update(false);
   EXPECT_EQ(command_.status, TickStatus::kOk);

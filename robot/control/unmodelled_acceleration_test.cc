@@ -46,9 +46,9 @@ TEST_F(UnmodelledAccelerationTest, IsClampedAtOneHundred) {
   EXPECT_EQ(estimate_.vdot()[1], -100);
 }
 
-// By Froude's rule, a robot four times as large moves half as fast in rad/s, and
-// its angular accelerations are a quarter. Its estimate is then a quarter, also
-// at the clamp.
+// By Froude's rule, a robot four times as large moves half as fast in rad/s,
+// and its angular accelerations are a quarter. Its estimate is then a quarter,
+// also at the clamp.
 TEST_F(UnmodelledAccelerationTest, ScalesWithTheRobot) {
   UnmodelledAcceleration large(2, {4, 64});
   for (const double size : {10.0, 1000.0}) {

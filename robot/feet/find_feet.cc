@@ -153,16 +153,17 @@ void CheckMesh(const RobotModel& model, const Foot& foot,
        WhyWithoutMesh(outline));
 }
 
-// Keeps why a mesh is not read if the outline of other shapes replaces this one.
+// Keeps why a mesh is not read if the outline of other shapes replaces this
+// one.
 void KeepRefusal(const Outline& from, Outline* to) {
   if (from.mesh_refusal.empty()) return;
   to->mesh_refusal = from.mesh_refusal;
   to->mesh_is_missing = from.mesh_is_missing;
 }
 
-// Returns the sole of a foot. If the collision shapes have none, uses the visual
-// shapes: a foot may have one sphere for collisions. A short underside of the
-// visual shapes is no sole, but the end of a leg with a point foot.
+// Returns the sole of a foot. If the collision shapes have none, uses the
+// visual shapes: a foot may have one sphere for collisions. A short underside
+// of the visual shapes is no sole, but the end of a leg with a point foot.
 Sole FindSoleOf(const RobotModel& model, int body, const Vector3d& up_B,
                 double leg, Outline* outline) {
   const Sole sole = FindSole(*outline, up_B, leg);

@@ -30,8 +30,8 @@ std::optional<Eigen::Vector3d> AxisOfName(const std::string& name);
 /// @pre The robot has two feet.
 std::string ForwardAxis(const Robot& robot);
 
-/// Returns 1 if the names of the links and joints of two legs say that the first
-/// leg is on the left, -1 if they say that the second one is, see
+/// Returns 1 if the names of the links and joints of two legs say that the
+/// first leg is on the left, -1 if they say that the second one is, see
 /// CompareSides(). Returns 0 if they do not say it, or contradict each other.
 /// @param contradict  receives whether the names contradict each other.
 int LeftByNames(const RobotModel& model, const Legs& legs, bool* contradict);

@@ -16,11 +16,11 @@ namespace poise {
 /// characters than letters. Case does not matter.
 int CompareSides(const std::string& a, const std::string& b);
 
-/// Returns 1 if the name of a link or joint has a word for a part of a leg, such
-/// as `hip`, `knee` or `foot`. Returns -1 for a part of an arm, and 0 if the
-/// name has no such word, or words for both. Words end at capitals and at
-/// characters that are no letters; `lknee` and `kneepitch` are words for a knee,
-/// but `harmony` and `machine` are no words for an arm and a shin.
+/// Returns 1 if the name of a link or joint has a word for a part of a leg,
+/// such as `hip`, `knee` or `foot`. Returns -1 for a part of an arm, and 0 if
+/// the name has no such word, or words for both. Words end at capitals and at
+/// characters that are no letters; `lknee` and `kneepitch` are words for a
+/// knee, but `harmony` and `machine` are no words for an arm and a shin.
 int LegOrArm(const std::string& name);
 
 }  // namespace poise

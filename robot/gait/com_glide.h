@@ -26,8 +26,8 @@ class ComGlide {
   /// Advances by dt, s, and writes p_WG, v_WG and a_WG of the reference.
   /// @param p_WG    goal in the plane, m.
   /// @param height  goal above the ground, m.
-  /// @param time    until the goal is reached at rest, s. In the last 20 ms, and
-  ///                after them, the motion brakes.
+  /// @param time    until the goal is reached at rest, s. In the last 20 ms,
+  ///                and after them, the motion brakes.
   void MoveTo(double dt, const Eigen::Vector2d& p_WG, double height,
               double time, Reference* reference) noexcept;
 

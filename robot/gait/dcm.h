@@ -9,8 +9,8 @@
 namespace poise {
 
 /// Divergent component of motion of a robot, with a share of its angular
-/// momentum k about G given back: xi = p_G + (v_G + share k x z / (m h)) / w, in
-/// the plane. m is the mass, h the height of G above the ground.
+/// momentum k about G given back: xi = p_G + (v_G + share k x z / (m h)) / w,
+/// in the plane. m is the mass, h the height of G above the ground.
 inline Eigen::Vector2d ComputeDcm(const Tick& tick, double mass, double height,
                                   double omega, double share) {
   const Eigen::Vector2d k_cross_z(tick.L_G[1], -tick.L_G[0]);

@@ -146,8 +146,8 @@ TEST(Gait, ShiftsNominalCenterOfMassOverSoleAtAnyHeading) {
     rig.Run(1.2);  // The shift takes 1.0 s; the foot rises after 1.3 s.
     ASSERT_EQ(rig.gait().phase(), GaitPhase::kShift);
     const Eigen::Vector2d p_WG = rig.controller().reference().p_WG.head<2>();
-    // The reference keeps its goal, and the sole drifts by 5 um in the rig; with
-    // mixed frames the difference is 15 mm.
+    // The reference keeps its goal, and the sole drifts by 5 um in the rig;
+    // with mixed frames the difference is 15 mm.
     EXPECT_LT((p_WG - rig.FootPlace(1) - p_MidG_W).norm(), 1e-4);
   }
 }

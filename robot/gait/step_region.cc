@@ -53,7 +53,8 @@ class Leg {
 
   // Returns the largest torque of the leg's joints, as a fraction of the effort
   // limit, while the leg alone holds the robot's weight above its nominal place
-  // with the base lower by `sink`. Infinite if the leg does not reach the place.
+  // with the base lower by `sink`. Infinite if the leg does not reach the
+  // place.
   double Load(double sink) {
     Restart(sink);
     if (!MoveTo(p_nominal_WC_.head<2>())) {

@@ -13,11 +13,11 @@ namespace poise {
 /// upright, and the sole level and along the base's heading.
 ///
 /// Frame N: the base's heading, z up, origin on the ground below the base. The
-/// region is the polygon normal(i)' u_N <= support(i, sink), for i below kSides.
-/// `sink` is the height by which the base is below its nominal height. With a
-/// lower base the leg reaches farther, until a joint of the bent leg is at its
-/// limit, or one leg alone cannot hold the weight with bent knees. Between these
-/// limits, max_sink() is where the region is largest.
+/// region is the polygon normal(i)' u_N <= support(i, sink), for i below
+/// kSides. `sink` is the height by which the base is below its nominal height.
+/// With a lower base the leg reaches farther, until a joint of the bent leg is
+/// at its limit, or one leg alone cannot hold the weight with bent knees.
+/// Between these limits, max_sink() is where the region is largest.
 class StepRegion {
  public:
   static constexpr int kSides = 12;

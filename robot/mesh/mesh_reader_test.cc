@@ -188,8 +188,8 @@ TEST(MeshReader, RefusesAMeshThatIsTooLarge) {
       "accepted");
 }
 
-// A sparse file takes no space on the disk. One that starts as a Git LFS pointer
-// counts, but is refused before its content is read.
+// A sparse file takes no space on the disk. One that starts as a Git LFS
+// pointer counts, but is refused before its content is read.
 TEST(MeshReader, BoundsTheSizeOfAFileAndOfAllFiles) {
   const MeshPlaces places = Places();
   const std::filesystem::path file =

@@ -22,7 +22,8 @@ std::string Link(const std::string& name, double mass, double radius = 0.1,
          "'/></inertial></link>";
 }
 
-// Returns a link without mass, or with less than any part has, but with inertia.
+// Returns a link without mass, or with less than any part has, but with
+// inertia.
 std::string Dummy(const std::string& name, const std::string& mass,
                   const std::string& I) {
   return "<link name='" + name + "'><inertial><mass value='" + mass +

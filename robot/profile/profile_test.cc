@@ -305,8 +305,8 @@ TEST(LoadRobot, RejectsSwappedFeetAndAFallingPosture) {
             std::string::npos);
 }
 
-// The soles are turned over, so that the robot hangs below the ground. All other
-// conditions hold.
+// The soles are turned over, so that the robot hangs below the ground. All
+// other conditions hold.
 TEST(LoadRobot, RejectsAPostureBelowItsSoles) {
   Robot robot = LoadRobot(kUrdf, LoadProfile("robot/profiles/humanoid.yaml"));
   const Eigen::AngleAxisd over(M_PI, Eigen::Vector3d::UnitX());

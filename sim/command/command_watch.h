@@ -21,9 +21,9 @@ namespace poise {
 /// - A lift happened if the sole rose by half of the height, before the foot is
 ///   put down.
 /// - A foot was put down if the ground pressed on it while it was meant down.
-/// - The motion of the CoM happened if its component of the commanded frequency,
-///   along the commanded directions, has half of the commanded amplitude. It may
-///   lag behind by less than a quarter of the period.
+/// - The motion of the CoM happened if its component of the commanded
+///   frequency, along the commanded directions, has half of the commanded
+///   amplitude. It may lag behind by less than a quarter of the period.
 ///
 /// A command whose time ends before its motion can be complete is not judged.
 class CommandWatch {

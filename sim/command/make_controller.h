@@ -11,10 +11,10 @@
 
 namespace poise {
 
-/// Makes the controller of a scenario. It believes in the wrong masses, and knows the
-/// reduced torques, of the scenario. Throws InputError of the field that names a task that
-/// the robot does not have, or of "robot" if the robot cannot be controlled. Throws Refusal
-/// about a file.
+/// Makes the controller of a scenario. It believes in the wrong masses, and
+/// knows the reduced torques, of the scenario. Throws InputError of the field
+/// that names a task that the robot does not have, or of "robot" if the robot
+/// cannot be controlled. Throws Refusal about a file.
 /// @param add_tasks  see ControllerOptions::add_tasks.
 std::unique_ptr<Controller> MakeController(
     const Robot& robot, const Scenario& scenario,

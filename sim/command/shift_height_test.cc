@@ -25,9 +25,9 @@ TEST(SinkOfShift, IsZeroForRobotsWithHipsAndKneesToSpare) {
   EXPECT_EQ(SinkOfShift(Biped(0.1), 0, {0, 0}), 0);
 }
 
-// With its knees bent by 0.6 rad, the hips are 0.8 m cos(0.3) = 0.764 m above the
-// ankles. From there, the straight leg of 0.8 m reaches 0.236 m aside, but the
-// hips move by about 0.3 m.
+// With its knees bent by 0.6 rad, the hips are 0.8 m cos(0.3) = 0.764 m above
+// the ankles. From there, the straight leg of 0.8 m reaches 0.236 m aside, but
+// the hips move by about 0.3 m.
 TEST(SinkOfShift, IsPositiveForFeetFarApart) {
   const Robot robot = Biped(0.3);
   const double left = SinkOfShift(robot, 0, {0, 0});

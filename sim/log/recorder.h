@@ -20,7 +20,7 @@ namespace poise {
 ///     log.csv     one row per tick: the plant's true state, then the output of
 ///                 the controller. Equal runs give equal bytes, in any locale.
 ///                 With LogFormat::kBinary the file is log.bin, see LogRows.
-///     timing.csv  tick, us, iterations, modelled_us. `us` differs from run to run.
+///     timing.csv  tick, us, iterations, modelled_us. `us` is not reproducible.
 ///
 /// Only complete rows are written, every 50 ticks. So a run that crashes or is
 /// killed leaves files that can be read.
@@ -38,8 +38,8 @@ class Recorder {
   /// Throws as Flush() does.
   void Record(const TickRecord& record);
 
-  /// Writes all waiting rows to the files. Throws std::invalid_argument if a file
-  /// cannot be written, for example because the disk is full.
+  /// Writes all waiting rows to the files. Throws std::invalid_argument if a
+  /// file cannot be written, for example because the disk is full.
   void Flush();
 
   /// Returns the SHA-256 of the log up to now.

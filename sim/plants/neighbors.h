@@ -10,9 +10,9 @@ namespace poise {
 
 /// Returns the pairs of bodies, smaller index first, whose shapes overlap by
 /// construction and so must not collide:
-/// - bodies connected by one joint, or by several joints within 5 cm or, if that
-///   is longer, 5.5 % of the robot's reach, see Reach() (the thigh is a neighbor
-///   of the pelvis, although hip bodies are between them);
+/// - bodies connected by one joint, or by several joints within 5 cm or, if
+///   that is longer, 5.5 % of the robot's reach, see Reach() (the thigh is a
+///   neighbor of the pelvis, although hip bodies are between them);
 /// - bodies with the same parent.
 std::vector<std::pair<int, int>> FindNeighbors(const Tree& tree);
 

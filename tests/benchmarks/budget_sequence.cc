@@ -163,8 +163,8 @@ class Comparison {
   std::array<std::vector<std::unique_ptr<Solver>>, 2> solvers_;
   std::unique_ptr<Solver> cold_;  // With the budget.
   std::vector<Tick> ticks_;
-  /// A copy of the tick's hierarchy. Its rows are in the cache, as in a control loop,
-  /// where Stack has just written them.
+  /// A copy of the tick's hierarchy. Its rows are in the cache, as in a control
+  /// loop, where Stack has just written them.
   std::optional<Hierarchy> hot_;
   int run_ = 0;  // Ticks in a row that were cut off.
 };

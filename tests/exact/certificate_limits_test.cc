@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 // A certificate is relative to the largest terms of its level, so that it is no
-// proof where the terms of a level have very different sizes. The gap assumes that y
-// meets the levels above, and that no optimum is far away. Each test certifies
-// an answer that was written by hand, not one of a solver. The exact optimum
-// shows how wrong this answer is.
+// proof where the terms of a level have very different sizes. The gap assumes
+// that y meets the levels above, and that no optimum is far away. Each test
+// certifies an answer that was written by hand, not one of a solver. The exact
+// optimum shows how wrong this answer is.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -107,8 +107,9 @@ TEST(CertificateLimits, MissesAViolationBesideLargeVariables) {
   ExpectCertifiedButWrong(Answer(problem, {2e9, 1 - 2e9}), 0, 0.5, 0);
 }
 
-// One variable with the targets 1, 1 + delta and delta on levels 0 to 2, and the answer
-// 1 + delta. Level 2 has its multiplier 1 on the row of level 0 or of level 1.
+// One variable with the targets 1, 1 + delta and delta on levels 0 to 2, and
+// the answer 1 + delta. Level 2 has its multiplier 1 on the row of level 0 or
+// of level 1.
 Answer ThreeTargets(double delta, int level_of_multiplier) {
   Answer answer(HierarchyByHand(1, {{0, {1}, 1, 1},
                                     {1, {1}, 1 + delta, 1 + delta},
@@ -118,28 +119,31 @@ Answer ThreeTargets(double delta, int level_of_multiplier) {
   return answer;
 }
 
-// Level 0 is certified because its residual delta is small beside its target. Level 1 is
-// met, so that its gap is zero, although level 0 does not allow its target.
+// Level 0 is certified because its residual delta is small beside its target.
+// Level 1 is met, so that its gap is zero, although level 0 does not allow its
+// target.
 TEST(CertificateLimits, GapMissesAnAnswerThatMeetsALevelBelowTooWell) {
   const double delta = 0x1p-30;  // 9.3e-10.
   const Answer answer = ThreeTargets(delta, 1);
   EXPECT_LE(answer.Worst(), Certifier::kCertified);
   EXPECT_EQ(answer.Excess(2), delta - delta * delta / 2);
   EXPECT_LT(answer.Gap(2), answer.Excess(2) / 100);
-  // With the multiplier on level 0, which y misses, the gap is the change of its residual.
+  // With the multiplier on level 0, which y misses, the gap is the change of
+  // its residual.
   EXPECT_LE(ThreeTargets(delta, 0).Worst(), Certifier::kCertified);
   EXPECT_GE(ThreeTargets(delta, 0).Gap(2), delta - delta * delta / 2);
 }
 
-// The certificate of level 0 is delta / (2 + delta). It exceeds 1e-9 from a delta of
-// 2e-9 on.
+// The certificate of level 0 is delta / (2 + delta). It exceeds 1e-9 from a
+// delta of 2e-9 on.
 TEST(CertificateLimits, SeesATargetMissedBy2e9) {
   EXPECT_LE(ThreeTargets(1.9e-9, 1).Worst(), Certifier::kCertified);
   EXPECT_GT(ThreeTargets(2.1e-9, 1).Worst(), Certifier::kCertified);
 }
 
-// Level 0 bounds y1 by `bound`. Level 1 has the rows y0 = 1 and y0 + slope y1 = 2, and
-// the answer (1.5, 0) misses each by 0.5. Both are met at (1, 1 / slope).
+// Level 0 bounds y1 by `bound`. Level 1 has the rows y0 = 1 and y0 + slope y1 =
+// 2, and the answer (1.5, 0) misses each by 0.5. Both are met at (1, 1 /
+// slope).
 Answer NearlyEqualRows(double slope, double bound) {
   return Answer(HierarchyByHand(2, {{0, {0, 1}, -bound, bound},
                                     {1, {1, 0}, 1, 1},
@@ -147,8 +151,8 @@ Answer NearlyEqualRows(double slope, double bound) {
                 {1.5, 0});
 }
 
-// The gap is the gradient slope / 2 times R = 2 (1.5 + 2), while the cost falls by about
-// slope / 2 times the distance of the optimum.
+// The gap is the gradient slope / 2 times R = 2 (1.5 + 2), while the cost falls
+// by about slope / 2 times the distance of the optimum.
 TEST(CertificateLimits, GapMissesAnOptimumFartherThanR) {
   const double slope = 0x1p-32;  // 2.3e-10.
   const double radius = 2 * (1.5 + 2);
@@ -158,7 +162,8 @@ TEST(CertificateLimits, GapMissesAnOptimumFartherThanR) {
   for (const Answer* answer : {&within, &beyond, &far}) {
     EXPECT_LE(answer->Worst(), Certifier::kCertified);
     EXPECT_GE(answer->Gap(1), slope / 2 * radius);
-    // The rest is rounding: 12 eps / 2 of the gradient's terms, 6, times R is 5.6e-14.
+    // The rest is rounding: 12 eps / 2 of the gradient's terms, 6, times R is
+    // 5.6e-14.
     EXPECT_LE(answer->Gap(1), slope / 2 * radius + 1e-13);
   }
   EXPECT_LE(within.Excess(1), within.Gap(1));

@@ -59,10 +59,10 @@ TEST(Gap, CoversTheExactOptimum) {
   EXPECT_GE(tight, levels * 9 / 10);
 }
 
-// A box, rows that cannot all be met, and a target for each variable. In one of three,
-// level 0 also fixes y_0 = 0. y is near the optimum of the rows, inside the box, and the
-// multipliers sum to zero with the gradients, whatever their sign. So the gap of level 2
-// is that of the rows' slacks.
+// A box, rows that cannot all be met, and a target for each variable. In one of
+// three, level 0 also fixes y_0 = 0. y is near the optimum of the rows, inside
+// the box, and the multipliers sum to zero with the gradients, whatever their
+// sign. So the gap of level 2 is that of the rows' slacks.
 class Trade {
  public:
   explicit Trade(int seed)
@@ -106,9 +106,9 @@ class Trade {
     return solution;
   }
 
-  // Answers with y at most `off` beside the optimum. Multipliers of level 2 on the
-  // rows are W B p + f r, and a part of size `rest`. If that is not zero, p is not the
-  // direction that the level wants either.
+  // Answers with y at most `off` beside the optimum. Multipliers of level 2 on
+  // the rows are W B p + f r, and a part of size `rest`. If that is not zero, p
+  // is not the direction that the level wants either.
   Solution Answer(double off, double f, double rest) {
     Solution solution = Optimum();
     for (int j = 0; j < n_; ++j) {
@@ -188,8 +188,8 @@ TEST(Gap, CoversAnswersWithAnyMultipliers) {
       }
     }
   }
-  // A bound that is always far off would be of no use. Negative f and rows that hardly
-  // determine a direction make most of these bounds large.
+  // A bound that is always far off would be of no use. Negative f and rows that
+  // hardly determine a direction make most of these bounds large.
   EXPECT_GE(sharp, answers / 6);
 }
 
@@ -211,8 +211,8 @@ TEST(Gap, IsSharpWithTheTradeOffsOfTheSolver) {
   EXPECT_GE(sharper, 100);
 }
 
-// The gaps of a solver that was stopped. A level is compared if the levels above
-// cost what they must.
+// The gaps of a solver that was stopped. A level is compared if the levels
+// above cost what they must.
 TEST(Gap, CoversASolverThatWasStopped) {
   int stopped = 0;
   for (int seed = 0; seed < 200; ++seed) {

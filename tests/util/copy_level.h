@@ -12,8 +12,8 @@ struct LevelBlocks {
 };
 
 /// Adds the rows of a level to the same level of another hierarchy with as many
-/// variables. Returns the new rows, so that the caller can change them. Their spans are all
-/// columns. pre: `to` has room for them.
+/// variables. Returns the new rows, so that the caller can change them. Their
+/// spans are all columns. pre: `to` has room for them.
 LevelBlocks CopyLevel(const Hierarchy& from, int level, Hierarchy* to);
 
 }  // namespace poise

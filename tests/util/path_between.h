@@ -13,8 +13,9 @@
 
 namespace poise {
 
-/// A path between two hierarchies of the same rows, for tests of ParametricSearch.
-/// Follow() and MeetLevelsBeforeLast() expect that nothing is allocated.
+/// A path between two hierarchies of the same rows, for tests of
+/// ParametricSearch. Follow() and MeetLevelsBeforeLast() expect that nothing is
+/// allocated.
 class PathBetween {
  public:
   PathBetween(int num_variables, const std::vector<LevelCapacity>& capacity);
@@ -22,20 +23,21 @@ class PathBetween {
   /// Finds the optimum of the first hierarchy without a path, and remembers it.
   void Begin(const Hierarchy& hierarchy);
 
-  /// Solves the leading levels of the second hierarchy for the last working set.
+  /// Solves the leading levels of the second hierarchy for the last working
+  /// set.
   void Start(const Hierarchy& hierarchy);
 
-  /// Follows the path to the second hierarchy. Returns whether `limit` iterations suffice,
-  /// and the path is not given up.
+  /// Follows the path to the second hierarchy. Returns whether `limit`
+  /// iterations suffice, and the path is not given up.
   bool Follow(const Hierarchy& hierarchy, int limit = kEnough);
   /// Follow() without Start().
   /// @param modelled_seconds  limit of time; 0: none.
   bool FollowFromHere(const Hierarchy& hierarchy, int limit = kEnough,
                       double modelled_seconds = 0);
 
-  /// ParametricSearch::MeetLevelsBeforeLast() after ParametricSearch::Begin() with y(). If it
-  /// is postponed, ParametricSearch::PauseAtLevelsBeforeLast() follows at once. Returns whether
-  /// the levels are met.
+  /// ParametricSearch::MeetLevelsBeforeLast() after ParametricSearch::Begin()
+  /// with y(). If it is postponed, ParametricSearch::PauseAtLevelsBeforeLast()
+  /// follows at once. Returns whether the levels are met.
   bool MeetLevelsBeforeLast(const Hierarchy& hierarchy, int limit = kEnough);
 
   Eigen::VectorXd y() const {
@@ -65,8 +67,8 @@ class PathBetween {
   ParametricSearch::Sides side_;
 };
 
-/// Adds an inequality without bounds to a level of unit rows, so that it is a leading level
-/// and not a diagonal one.
+/// Adds an inequality without bounds to a level of unit rows, so that it is a
+/// leading level and not a diagonal one.
 void MakeLeading(int level, Hierarchy* hierarchy);
 
 /// Returns an empty working set.

@@ -68,8 +68,8 @@ struct HierarchyCase {
 /// Draws a hierarchy. The same seed gives the same hierarchy on every platform.
 /// Numbers are multiples of 0.01, so that files are short. The options
 /// `weighted`, `degenerate_vertex`, `integer`, `columns`, `small_columns` and
-/// `bounds` consume no random number if they are 0: hierarchies of known seeds do
-/// not change. Spans are found if there are `bounds`.
+/// `bounds` consume no random number if they are 0: hierarchies of known seeds
+/// do not change. Spans are found if there are `bounds`.
 HierarchyCase MakeRandomHierarchy(std::uint64_t seed,
                                   const RandomHierarchyOptions& options = {});
 

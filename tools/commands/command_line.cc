@@ -19,7 +19,8 @@
 namespace poise {
 namespace {
 
-// Returns where `middle` occurs last in a text, as the text before and after it.
+// Returns where `middle` occurs last in a text, as the text before and after
+// it.
 std::optional<std::pair<std::string, std::string>> SplitAt(
     const std::string& text, const std::string& middle) {
   const size_t at = text.rfind(middle);
@@ -213,8 +214,9 @@ struct Help {
 // The line that a signal handler prints.
 char g_interrupted_line[80];
 
-// Prints the line, and ends the program as SIGINT does without a handler, so that a shell
-// also stops its loop. Only functions that are safe in a signal handler are called.
+// Prints the line, and ends the program as SIGINT does without a handler, so
+// that a shell also stops its loop. Only functions that are safe in a signal
+// handler are called.
 void EndInterrupted(int) {
   const ssize_t written =
       write(STDERR_FILENO, g_interrupted_line, std::strlen(g_interrupted_line));
@@ -223,8 +225,8 @@ void EndInterrupted(int) {
   (void)std::raise(SIGINT);
 }
 
-// Prints a line if the user interrupts the program. A program that is run in the background
-// may ignore SIGINT, and goes on to do so.
+// Prints a line if the user interrupts the program. A program that is run in
+// the background may ignore SIGINT, and goes on to do so.
 void SayIfInterrupted(const std::string& name) {
   std::snprintf(g_interrupted_line, sizeof g_interrupted_line,
                 "\n%s: interrupted\n", name.c_str());

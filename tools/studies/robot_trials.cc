@@ -243,7 +243,8 @@ class Candidate {
   RobotTrial trial_;
 };
 
-// Throws if a robot of EXPECTED.json has no file, because it would not be tried.
+// Throws if a robot of EXPECTED.json has no file, because it would not be
+// tried.
 void CheckNames(const std::map<std::string, ExpectedRobot>& expected,
                 const std::vector<fs::path>& files) {
   for (const auto& [name, robot] : expected) {

@@ -11,9 +11,9 @@
 namespace poise {
 
 /// Calls run(0) to run(count - 1), one per processor at a time. Passes each
-/// result to use(i, result) on the calling thread, in the order of i, as soon as
-/// the results before it are there. A processor that is done takes the next run
-/// without waiting for the others.
+/// result to use(i, result) on the calling thread, in the order of i, as soon
+/// as the results before it are there. A processor that is done takes the next
+/// run without waiting for the others.
 ///
 /// @param run  called by several threads at the same time.
 ///

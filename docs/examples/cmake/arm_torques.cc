@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-// The dynamics of an arm on a table, from its URDF file: the torques of a motion
-// by RNEA, and the motion of these torques by ABA.
+// The dynamics of an arm on a table, from its URDF file: the torques of a
+// motion by RNEA, and the motion of these torques by ABA.
 #include <iostream>
 
 #include "poise/dynamics/aba.h"

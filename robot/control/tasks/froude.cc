@@ -17,9 +17,9 @@ namespace {
 // rounding, and postures that differ a little.
 constexpr double kSameHeight = 1e-3;
 
-// Returns the power of L of a parameter, from its unit: 1 for m, 0.5 for s, -0.5
-// for 1/s, -1 for 1/s2, -1.5 for 1/s3, -2 for 1/m2, and 0 for numbers without a
-// unit.
+// Returns the power of L of a parameter, from its unit: 1 for m, 0.5 for s,
+// -0.5 for 1/s, -1 for 1/s2, -1.5 for 1/s3, -2 for 1/m2, and 0 for numbers
+// without a unit.
 double PowerOf(std::string_view task, std::string_view parameter) {
   static const std::map<std::string_view, double> powers = {
       {"angular_weight", -2},

@@ -16,9 +16,9 @@ constexpr double kTunedComHeight = 0.79241773219939693;
 /// Mass of robot/models/humanoid.urdf, kg.
 constexpr double kTunedMass = 38.66;
 
-/// The size of a robot, over that of robot/models/humanoid.urdf. A quantity with
-/// a unit is multiplied by these ratios: by Froude's rule, robots that are alike
-/// then move alike. Accelerations do not depend on the size.
+/// The size of a robot, over that of robot/models/humanoid.urdf. A quantity
+/// with a unit is multiplied by these ratios: by Froude's rule, robots that are
+/// alike then move alike. Accelerations do not depend on the size.
 struct FroudeScale {
   double length = 1;
   double mass = 1;
@@ -41,8 +41,8 @@ std::optional<double> NominalComHeight(const Robot& robot);
 /// Scales the parameters of a task from kTunedComHeight to another height of
 /// the center of mass, by Froude's rule: lengths scale with L = com_height /
 /// kTunedComHeight, times with sqrt(L), so that kp [1/s2] scales with 1 / L and
-/// kd [1/s] with 1 / sqrt(L). Robots that are alike then move alike, in units of
-/// their own lengths and times. Angles, weights and coefficients of friction
+/// kd [1/s] with 1 / sqrt(L). Robots that are alike then move alike, in units
+/// of their own lengths and times. Angles, weights and coefficients of friction
 /// stay, but weights of angular momentum, which has a length in its unit, scale
 /// with 1 / L^2. A robot within 0.1 % of kTunedComHeight keeps the defaults
 /// exactly.

@@ -31,8 +31,8 @@ double Damped(double w, double d, double v) { return w * w * d - 2 * w * v; }
 
 // Returns the largest acceleration towards a limit that stops at the limit. A
 // joint that would brake more by Damped() brakes at a constant rate. The two
-// are equal at v = (2 - sqrt(2)) w d. `most` bounds the brake of a joint that is
-// almost at its limit.
+// are equal at v = (2 - sqrt(2)) w d. `most` bounds the brake of a joint that
+// is almost at its limit.
 double Stopping(double w, double d, double v) {
   if (v <= 0 || v <= (2 - M_SQRT2) * w * d) return Damped(w, d, v);
   const double most = 4 * w * v - w * w * d;

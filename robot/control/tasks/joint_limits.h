@@ -17,12 +17,12 @@ constexpr double kSlowestVelocity = 3;
 
 /// Keeps each joint inside its position limits, by bounds on its acceleration:
 ///     w² (lower - q) - 2 w q̇ <= q̈ <= w² (upper - q) - 2 w q̇.
-/// On the bound the joint comes to rest at the limit, critically damped. The two
-/// joints next to a foot in contact may brake less: at the distance d from the
-/// limit and with a speed v > (2 - sqrt(2)) w d towards it by v² / (2 d), at
-/// most 4 w v - w² d. This also stops them at the limit. An impact tilts a sole
-/// at 10 rad/s; its rotation is a task of a lower level, and a brake that is up
-/// to twice as hard as necessary would throw the robot.
+/// On the bound the joint comes to rest at the limit, critically damped. The
+/// two joints next to a foot in contact may brake less: at the distance d from
+/// the limit and with a speed v > (2 - sqrt(2)) w d towards it by v² / (2 d),
+/// at most 4 w v - w² d. This also stops them at the limit. An impact tilts a
+/// sole at 10 rad/s; its rotation is a task of a lower level, and a brake that
+/// is up to twice as hard as necessary would throw the robot.
 ///
 /// A joint approaches its velocity limits as exp(-w t):
 ///     w (-q̇_max - q̇) <= q̈ <= w (q̇_max - q̇).
@@ -33,12 +33,12 @@ constexpr double kSlowestVelocity = 3;
 /// If a velocity limit contradicts a position limit, far beyond the position
 /// limit or fast towards it, the position limit wins. A range narrower than its
 /// margins shrinks to its middle. A joint without velocity limit, such as a
-/// finger that mimics another, gets kAssumedVelocity; otherwise a few milligrams
-/// would be accelerated by 1e6 rad/s² to supply the momentum that the feet
-/// cannot. A joint without a motor (effort 0) has no bound, because no torque
-/// can hold it. q̈ is v̇_j plus TaskInput::unmodelled_vdot. Without the latter, a push
-/// would move the joint by w⁻² times that acceleration beyond the limit. Rows
-/// are divided by w² rad.
+/// finger that mimics another, gets kAssumedVelocity; otherwise a few
+/// milligrams would be accelerated by 1e6 rad/s² to supply the momentum that
+/// the feet cannot. A joint without a motor (effort 0) has no bound, because no
+/// torque can hold it. q̈ is v̇_j plus TaskInput::unmodelled_vdot. Without the
+/// latter, a push would move the joint by w⁻² times that acceleration beyond
+/// the limit. Rows are divided by w² rad.
 class JointLimitsTask final : public Task {
  public:
   /// Parameters: omega (40 1/s); margin (0.008 rad), kept from each limit.

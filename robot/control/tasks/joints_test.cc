@@ -55,8 +55,8 @@ TEST_F(TaskTest, JointLimitsBringAJointToRestAtItsStop) {
   }
 }
 
-// An ankle of a foot in contact comes to rest at its stop as well, and brakes by
-// at most what stops it at a constant rate.
+// An ankle of a foot in contact comes to rest at its stop as well, and brakes
+// by at most what stops it at a constant rate.
 TEST_F(TaskTest, JointLimitsBrakeAnAnkleOnTheGroundByWhatIsNecessary) {
   RobotModel model = robot_.model;
   const int j = *tree_.FindJoint("l_ankle_roll");

@@ -127,8 +127,8 @@ TEST_F(TaskTest, MomentumFollowsItsReference) {
   EXPECT_LT((asked.tail<3>() - (30 * p + 10 * v + a)).norm(), 1e-9);
 }
 
-// With a quarter of the pelvis's moments of inertia, the trunk is the torso. Where
-// the reference turns the chest, it turns the torso.
+// With a quarter of the pelvis's moments of inertia, the trunk is the torso.
+// Where the reference turns the chest, it turns the torso.
 TEST_F(TaskTest, MomentumKeepsTheTrunkUprightOnALightPelvis) {
   std::ifstream file("robot/models/humanoid.urdf");
   std::string text(std::istreambuf_iterator<char>(file), {});

@@ -169,8 +169,8 @@ SelfCollisionTask::SelfCollisionTask(const Robot& robot, CollisionModel model)
 }
 
 bool SelfCollisionTask::HasRows(const TaskInput& input) const noexcept {
-  // A robot that catches itself by steps swings its arms past its thighs. There,
-  // the rows would cost more balance than a touch.
+  // A robot that catches itself by steps swings its arms past its thighs.
+  // There, the rows would cost more balance than a touch.
   if (input.reference.pendulum.is_on) return false;
   const Common common = FindCommon(input);
   for (int i = 0; i < static_cast<int>(model_.pairs.size()); ++i) {
@@ -268,7 +268,8 @@ SelfCollisionTask::Bound SelfCollisionTask::FindBound(
       std::min({d_min_, nominal_[i] / 2, nominal_[i] - d_min_ / 2});
   bound.closest = ComputePairDistance(model_, pair, X_WB, kSoftness);
   const Vector3d& gradient = bound.closest.gradient;
-  // In whichever direction the bodies move, ḋ is at least -|gradient| max_speed.
+  // In whichever direction the bodies move, ḋ is at least -|gradient|
+  // max_speed.
   if (omega_ * omega_ * (bound.closest.distance - d_min) -
           2 * omega_ * gradient.norm() * common.max_speed >=
       loosest_) {

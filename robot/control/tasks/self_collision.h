@@ -62,7 +62,8 @@ class SelfCollisionTask final : public Task {
   };
   // Numbers of a tick that hold for all pairs.
   struct Common {
-    // Upper bound of the speed of a point of a capsule relative to another, m/s.
+    // Upper bound of the speed of a point of a capsule relative to another,
+    // m/s.
     double max_speed;
     double looseness_of_arms;  // 0 (strict) to 1 (no rows).
     // A pair has no row if balls around its bodies are this far apart, m.

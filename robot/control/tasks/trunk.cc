@@ -12,7 +12,8 @@ namespace {
 constexpr double kLightBase = 1.0 / 6;
 
 // Returns, by body, whether the body is part of a leg or hangs on one. A body
-// that carries both feet, as the torso of a robot whose base is a hand, is none.
+// that carries both feet, as the torso of a robot whose base is a hand, is
+// none.
 std::vector<bool> FindLegBodies(const Tree& tree,
                                 const std::vector<Foot>& feet) {
   std::vector<int> carried(tree.num_bodies(), 0);  // Feet that a body carries.

@@ -51,8 +51,9 @@ std::string WeakMotor(const Robot& robot, const VectorXd& tau, double height) {
   return reason;
 }
 
-// Returns that a joint between a foot and the base has no motor, or "". At rest,
-// such a joint may need no torque; but nothing balances the robot about it.
+// Returns that a joint between a foot and the base has no motor, or "". At
+// rest, such a joint may need no torque; but nothing balances the robot about
+// it.
 std::string MissingMotor(const Robot& robot, int foot) {
   const Tree& tree = robot.model.tree;
   for (int b = robot.feet[foot].body; b > 0; b = tree.joints()[b - 1].parent) {

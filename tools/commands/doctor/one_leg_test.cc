@@ -71,7 +71,8 @@ TEST(FindOneLegDefects, NamesWeakMotor) {
   EXPECT_NE(found.find("(limit 10 N m)"), std::string::npos) << found;
 }
 
-// The shift puts the center of mass over the ankle, so the joint needs no torque.
+// The shift puts the center of mass over the ankle, so the joint needs no
+// torque.
 TEST(FindOneLegDefects, NamesAnAnkleWithoutMotor) {
   Robot robot = Humanoid();
   robot.model.limits[robot.model.tree.FindJoint("l_ankle_roll").value()]

@@ -14,8 +14,8 @@ namespace poise {
 /// stays up, by the rules of Judge, or the reason why it falls, in words.
 ///
 /// The simulation ends after `longest` s of processor time or 1.6 times as long
-/// in real time at the latest. Returns nothing if the robot has not fallen until
-/// then.
+/// in real time at the latest. Returns nothing if the robot has not fallen
+/// until then.
 /// @pre robot.can_stand.
 std::optional<std::string> WhyFalls(const Robot& robot, const Profile& profile,
                                     double duration, double longest);

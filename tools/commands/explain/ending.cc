@@ -21,7 +21,8 @@ bool HasTask(const json& summary, const char* list, const char* task) {
   return std::find(names.begin(), names.end(), task) != names.end();
 }
 
-// Returns a sentence if the run has switched off the task that prevents such a fall.
+// Returns a sentence if the run has switched off the task that prevents such a
+// fall.
 std::string SayMissingTask(const json& summary, const std::string& fell_by) {
   const auto is_off = [&](const char* task) {
     return HasTask(summary, "without", task);

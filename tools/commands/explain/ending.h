@@ -11,8 +11,9 @@ namespace poise {
 /// @param summary  summary.json.
 bool WasInterrupted(const nlohmann::json& summary);
 
-/// Returns the sentence about the outcome of a run. If the robot fell, a second one names
-/// the task that the run had switched off and that prevents such a fall.
+/// Returns the sentence about the outcome of a run. If the robot fell, a second
+/// one names the task that the run had switched off and that prevents such a
+/// fall.
 std::string Ending(const nlohmann::json& summary);
 
 }  // namespace poise

@@ -274,7 +274,8 @@ TEST(Explanation, ReportsFootThatRollsOrSlides) {
             "0.400 s: the left foot has slid by more than 5 mm.");
 }
 
-// The log has the planned place of a step, summary.json the place of the landing.
+// The log has the planned place of a step, summary.json the place of the
+// landing.
 TEST(Explanation, SaysThatThePlaceOfAStepIsPlanned) {
   const nlohmann::json said = Explain(
       MakeRun("stepped",

@@ -101,7 +101,8 @@ TEST(MomentumCost, CountsOnlyTheLastEpisode) {
   EXPECT_EQ(cost.Causes()[0].task, "torque_limits");
 }
 
-// A tick that was cut off long after a push has no active row. It does not hide the push.
+// A tick that was cut off long after a push has no active row. It does not hide
+// the push.
 TEST(MomentumCost, ATickThatWasCutOffBeginsNoEpisode) {
   MomentumCost cost;
   cost.Look(1, 0.01, Phrases(), {{"left.cop", 1}}, {{"momentum.lx", 100}}, {},

@@ -8,8 +8,8 @@
 namespace poise {
 
 /// Phrases, units, kinds and tasks of rows, from the run's summary. If the
-/// summary does not describe a row, its phrase is its name, which also tells the
-/// unit of momentum and the kind of a limit.
+/// summary does not describe a row, its phrase is its name, which also tells
+/// the unit of momentum and the kind of a limit.
 class RowPhrases {
  public:
   RowPhrases() = default;

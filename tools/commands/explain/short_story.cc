@@ -21,8 +21,9 @@ using nlohmann::json;
 constexpr size_t kMostCauses = 2;  // Maximum number of named reasons of a loss.
 constexpr size_t kMostRows = 2;    // Maximum number of named rows of a cause.
 constexpr double kSmallShare = 0.1;  // Smaller shares of a loss are not named.
-// Beyond this multiple of the bound with one step, no step is advised. Our humanoid recovers
-// from at most 1.15 times that bound, with several steps (docs/generated/step_map.md).
+// Beyond this multiple of the bound with one step, no step is advised. Our
+// humanoid recovers from at most 1.15 times that bound, with several steps
+// (docs/generated/step_map.md).
 constexpr double kBeyondSteps = 2;
 constexpr size_t kMostPushes = 4;  // Maximum number of named pushes.
 

@@ -17,8 +17,8 @@ constexpr size_t kStoryLength = 6;
 /// have helped. Returns at most kStoryLength sentences.
 ///
 /// @param summary  summary of the run; an empty object if there is none. Then
-///                 the story has a sentence less, and the caller says first that
-///                 there is no summary.
+///                 the story has a sentence less, and the caller says first
+///                 that there is no summary.
 /// @param notes    sentences that the result must contain.
 /// @param ending   sentence about the end of the run.
 std::vector<std::string> TellShortStory(const RunStory& story,

@@ -31,8 +31,8 @@ bool IsTruncatedBefore(double time, const RunStory& story) {
   });
 }
 
-// Returns the budget, us, or 0 if no solve took so long: a limit of iterations may end
-// solves, too.
+// Returns the budget, us, or 0 if no solve took so long: a limit of iterations
+// may end solves, too.
 double FindBudget(const json& summary) {
   const json hqp = summary.value("hqp", json::object());
   if (!hqp.is_object()) return 0;

@@ -52,7 +52,8 @@ TEST(TruncatedTicks, AdviseALargerBudgetIfTheRobotFell) {
   EXPECT_EQ(say(0), fact);  // The robot fell before.
 }
 
-// A limit of iterations ended these solves, because none took as long as the budget allows.
+// A limit of iterations ended these solves, because none took as long as the
+// budget allows.
 TEST(TruncatedTicks, DoNotBlameABudgetThatNoSolveSpent) {
   const RunStory story = StoryWith({{"truncated rank_3", 2}});
   json summary = {{"fell_at", 9.0}};

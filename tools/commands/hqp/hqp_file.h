@@ -43,8 +43,8 @@ int CertifiedLevels(const Hierarchy& hierarchy, const Solution& solution);
 /// Times of a solve, us.
 struct SolveTimes {
   double measured;
-  /// Solver::modelled_seconds(), if known. It includes the search for the nullity, which a
-  /// controller leaves out.
+  /// Solver::modelled_seconds(), if known. It includes the search for the
+  /// nullity, which a controller leaves out.
   std::optional<double> modelled;
 };
 

@@ -25,8 +25,8 @@ struct HqpMethod {
 
 /// Solves hierarchies one after the other. With "fast", the solver starts from
 /// the working set of the previous problem if both have the same number of
-/// variables. Its memory is that of a controller, so that it repeats the ticks of a
-/// run to the bit.
+/// variables. Its memory is that of a controller, so that it repeats the ticks
+/// of a run to the bit.
 class HqpSequence {
  public:
   /// @param problems  all problems that Solve() will receive. The solver

@@ -38,8 +38,8 @@ TEST(HqpSequence, StartsColdIfRequested) {
   EXPECT_EQ(SecondIterations(method), 2);
 }
 
-// A target beyond 20 bounds needs a change of the working set for each of them. A budget of
-// 1 us allows two iterations.
+// A target beyond 20 bounds needs a change of the working set for each of them.
+// A budget of 1 us allows two iterations.
 TEST(HqpSequence, LimitsThePredictedTime) {
   constexpr int kRows = 20;
   const std::vector<LevelCapacity> capacity = {{0, kRows}, {kRows, 0}};
@@ -70,8 +70,8 @@ TEST(HqpSequence, LimitsThePredictedTime) {
   }
 }
 
-// A replay is exact if the solver keeps as many factors as a controller's: the answers are
-// the same to the last bit.
+// A replay is exact if the solver keeps as many factors as a controller's: the
+// answers are the same to the last bit.
 TEST(HqpSequence, RepeatsTheSolverOfAController) {
   constexpr int kVariables = 12, kRows = 40;
   const std::vector<LevelCapacity> capacity = {

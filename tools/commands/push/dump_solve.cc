@@ -14,7 +14,8 @@
 namespace poise {
 namespace {
 
-// Returns a time for the name of a file, with as many digits as tell two ticks apart.
+// Returns a time for the name of a file, with as many digits as tell two ticks
+// apart.
 std::string Text(double time, double dt, int width = 0) {
   const int digits =
       std::max(3, static_cast<int>(std::ceil(-std::log10(dt) - 1e-9)));

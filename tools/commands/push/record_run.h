@@ -27,8 +27,8 @@ struct RunRecord {
 /// from the folder.
 ///
 /// Throws std::invalid_argument as Run() does, or if a file cannot be written.
-/// If Run() rejects the scenario, or if one of the files cannot be written before
-/// the first tick, the files of the earlier run remain.
+/// If Run() rejects the scenario, or if one of the files cannot be written
+/// before the first tick, the files of the earlier run remain.
 RunRecord RecordRun(ClosedLoop* loop, const std::filesystem::path& folder,
                     const std::function<bool(double)>& progress = {},
                     LogFormat format = LogFormat::kCsv);

@@ -21,8 +21,8 @@ std::vector<std::string> WarningLines(const std::string& file,
 void PrintWarnings(const std::string& file, const Robot& robot,
                    std::vector<Finding> findings);
 
-/// Returns a warning if a budget leaves too little of the control period for the rest of a
-/// tick, or else an empty string.
+/// Returns a warning if a budget leaves too little of the control period for
+/// the rest of a tick, or else an empty string.
 std::string BudgetWarning(const ControlSettings& control);
 
 }  // namespace poise

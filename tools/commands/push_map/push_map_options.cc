@@ -57,7 +57,8 @@ void RequireBound(const Experiment& experiment) {
       "search starts at the pendulum's bound");
 }
 
-// Rejects runs that end too soon after the push to tell whether the robot recovers.
+// Rejects runs that end too soon after the push to tell whether the robot
+// recovers.
 void RequireTimeToRecover(const Scenario& scenario,
                           const std::vector<double>& durations) {
   const double longest = *std::max_element(durations.begin(), durations.end());

@@ -40,10 +40,9 @@ Experiment PushExperiment(const PushMapPlan& plan, const PushMapPoint& point,
 std::filesystem::path ReplayFile(const PushMapPoint& point);
 
 /// Finds the largest impulse of each point that the robot recovers from, by
-/// bisection or, if plan.scan, the largest of all successive ones from 2 N s on.
-/// Works with
-/// plan.threads threads. Results that the files already have are not computed
-/// again.
+/// bisection or, if plan.scan, the largest of all successive ones from 2 N s
+/// on. Works with plan.threads threads. Results that the files already have are
+/// not computed again.
 ///
 /// @param progress  called after every trial, never by two threads at the same
 ///                  time. If it returns false, all threads stop.

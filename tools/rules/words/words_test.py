@@ -3,6 +3,7 @@
 """Checks the words of comments, pages and test names of the whole tree."""
 
 import pathlib
+import unicodedata
 import unittest
 
 import words
@@ -40,6 +41,14 @@ def files():
             yield name
 
 
+def long_comments(text):
+    """Returns the numbers of comment lines wider than 80 columns."""
+    def width(line):
+        return sum(not unicodedata.combining(c) for c in line)
+    return [number for number, line in enumerate(text.splitlines(), 1)
+            if line.lstrip().startswith("//") and width(line) > 80]
+
+
 class WordsTest(unittest.TestCase):
     maxDiff = None
 
@@ -59,6 +68,13 @@ class WordsTest(unittest.TestCase):
                 name, (ROOT / name).read_text())]
             self.assertTrue(any(phrase in complaint for complaint in complaints),
                             (name, phrase))
+
+    def test_comments_of_cpp_have_at_most_80_columns(self):
+        # clang-format would break tables and formulas.
+        self.assertEqual(
+            [f"{name}:{number}" for name in files()
+             if name.endswith((".h", ".cc"))
+             for number in long_comments((ROOT / name).read_text())], [])
 
     def test_the_tree_has_files(self):
         self.assertGreater(len(list(files())), 500)
@@ -87,6 +103,11 @@ class FindingsTest(unittest.TestCase):
         self.assertEqual(
             self.lines("a_test.cc", "TEST(A, FailsOnANumberThatIsNone) {\n"),
             [1])
+
+    def test_notices_a_long_comment(self):
+        fits = "/// " + 75 * "x" + "v\u0307"  # v with a dot: one column.
+        self.assertEqual(
+            long_comments("\n".join([fits, fits + "x", "int x;" + fits])), [2])
 
     def test_accepts_plain_words(self):
         self.assertEqual(
