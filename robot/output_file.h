@@ -6,11 +6,15 @@
 
 namespace poise {
 
-/// Replaces the content of a file by `text`, in one step: a reader, or an
-/// interrupted program, sees either the old file or the new one. A device or a
-/// pipe is written directly. Throws std::invalid_argument with the name of the
-/// file and the system's reason if the file cannot be written; the old file
-/// then stays.
+/// Makes `text` the content of a file. Throws std::invalid_argument with the
+/// name of the file and the system's reason if the file cannot be written.
+///
+/// The file is replaced in one step: a reader, or an interrupted program, sees
+/// either the old file or the new one, and the old one stays if the new one
+/// does not fit. The owner and the permissions stay. A link stays a link; the
+/// file that it names is written. Some files cannot be replaced and are written
+/// directly instead: a device, a pipe, a file with several hard links, and a
+/// file in a folder where no file can be created.
 void WriteFile(const std::filesystem::path& file, std::string_view text);
 
 /// Makes a folder, and those above, if they do not exist. Throws

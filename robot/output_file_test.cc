@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/robot/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -14,6 +15,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace poise {
 namespace {
@@ -76,14 +79,111 @@ TEST(WriteFile, KeepsTheOldFileIfTheNewOneDoesNotFit) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
+TEST(WriteFile, LosesNoOtherFile) {
+  const fs::path folder = Folder("others");
+  const std::vector<std::string> others = {
+      "file.new", "file~", "file.tmp",
+      "file." + std::to_string(getpid()) + "-0"};
+  for (const std::string& name : others) std::ofstream(folder / name) << name;
+  WriteFile(folder / "file", "text");
+  EXPECT_EQ(Read(folder / "file"), "text");
+  for (const std::string& name : others) EXPECT_EQ(Read(folder / name), name);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 5);
+}
+
+TEST(WriteFile, KeepsOwnerAndPermissions) {
+  const fs::path file = Folder("permissions") / "file";
+  struct stat status;
+  const mode_t umask_before = umask(027);
+  WriteFile(file, "new");
+  umask(umask_before);
+  ASSERT_EQ(stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0640u);
+  // Only root can give a file to another user.
+  const uid_t owner = geteuid() == 0 ? 65534 : geteuid();
+  for (const mode_t mode : {0600u, 0755u, 0666u}) {
+    ASSERT_EQ(chmod(file.c_str(), mode), 0);
+    ASSERT_EQ(chown(file.c_str(), owner, -1), 0);
+    WriteFile(file, "text");
+    ASSERT_EQ(stat(file.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777, mode);
+    EXPECT_EQ(status.st_uid, owner);
+  }
+}
+
+TEST(WriteFile, KeepsLinks) {
+  const fs::path folder = Folder("links"), file = folder / "file";
+  WriteFile(file, "old");
+  fs::create_hard_link(file, folder / "hard");
+  WriteFile(file, "new");
+  EXPECT_EQ(Read(folder / "hard"), "new");
+  // A chain of links, to a file that does not exist yet.
+  fs::create_directory(folder / "a");
+  fs::create_symlink("../later", folder / "a" / "link");
+  fs::create_symlink(folder / "a" / "link", folder / "first");
+  WriteFile(folder / "first", "text");
+  EXPECT_EQ(fs::read_symlink(folder / "a" / "link"), "../later");
+  EXPECT_EQ(Read(folder / "later"), "text");
+  // A circle of links.
+  fs::create_symlink("circle", folder / "circle");
+  EXPECT_EQ(Refusal([&] { WriteFile(folder / "circle", "text"); }),
+            (folder / "circle").string() +
+                ": cannot be written: Too many levels of symbolic links");
+}
+
+TEST(WriteFile, WritesAnOpenFileByItsDescriptor) {
+  const fs::path file = Folder("descriptor") / "file";
+  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT, 0600);
+  ASSERT_GE(descriptor, 0);
+  WriteFile("/proc/self/fd/" + std::to_string(descriptor), "text");
+  char read[5] = {};
+  EXPECT_EQ(pread(descriptor, read, 4, 0), 4);
+  EXPECT_STREQ(read, "text");
+  close(descriptor);
+}
+
+TEST(WriteFile, NeedsAWritableFileAndNoMore) {
+  const fs::path folder = Folder("closed");
+  // The name leaves no room for that of a draft.
+  const fs::path longest = folder / std::string(255, 'x');
+  for (const char* text : {"created", "changed"}) {
+    WriteFile(longest, text);
+    EXPECT_EQ(Read(longest), text);
+  }
+  if (geteuid() == 0) return;  // Root can create files everywhere.
+  const fs::path file = folder / "file";
+  WriteFile(file, "a long old text");
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_EQ(Refusal([&] { WriteFile(file, "text"); }),
+            file.string() + ": cannot be written: Permission denied");
+  EXPECT_EQ(Read(file), "a long old text");
+  fs::permissions(file, fs::perms::owner_all);
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(Refusal(file), "");
+  WriteFile(file, "text");
+  EXPECT_EQ(Read(file), "text");
+  EXPECT_EQ(
+      Refusal([&] { WriteFile(folder / "new", "text"); }),
+      (folder / "new").string() + ": cannot be written: Permission denied");
+  fs::permissions(folder, fs::perms::owner_all);
+}
+
 TEST(WriteFile, GivesTheReasonOfTheSystem) {
   const auto refusal = [](const fs::path& file) {
     return Refusal([&] { WriteFile(file, "text"); });
   };
   const fs::path folder = Folder("reasons");
-  EXPECT_EQ(refusal("/dev/full"),
-            "/dev/full: cannot be written: No space left on device");
-  EXPECT_EQ(refusal("/dev/null"), "");
+  // The devices are named by descriptors: a defect then cannot replace the
+  // machine's own.
+  for (const auto& [device, reason] :
+       {std::pair("/dev/full", ": cannot be written: No space left on device"),
+        std::pair("/dev/null", "")}) {
+    const int descriptor = open(device, O_WRONLY);
+    ASSERT_GE(descriptor, 0);
+    const std::string name = "/proc/self/fd/" + std::to_string(descriptor);
+    EXPECT_EQ(refusal(name), *reason == '\0' ? "" : name + reason);
+    close(descriptor);
+  }
   EXPECT_EQ(refusal(folder),
             folder.string() + ": cannot be written: Is a directory");
   EXPECT_EQ(refusal(folder / "no" / "file"),
@@ -102,6 +202,7 @@ TEST(WriteFile, OpensAPipeOnce) {
     WriteFile(pipe, "text");
     ASSERT_EQ(read.get(), "text");
   }
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST(MakeFolder, MakesFoldersOrGivesTheReason) {
@@ -117,8 +218,7 @@ TEST(MakeFolder, MakesFoldersOrGivesTheReason) {
 }
 
 TEST(RequireWritable, AcceptsWritableFilesAndChangesNothing) {
-  const fs::path folder = fs::path(testing::TempDir()) / "accepts";
-  fs::create_directories(folder);
+  const fs::path folder = Folder("accepts");
   const fs::path old = folder / "old";
   std::ofstream(old) << "text";
   EXPECT_EQ(Refusal(old), "");
@@ -126,11 +226,13 @@ TEST(RequireWritable, AcceptsWritableFilesAndChangesNothing) {
   EXPECT_EQ(Refusal(folder / "new"), "");
   EXPECT_FALSE(fs::exists(folder / "new"));
   EXPECT_EQ(Refusal(folder / "no" / "folder"), "");
+  // An open for writing would wait for a reader.
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(Refusal(folder / "pipe"), "");
 }
 
 TEST(RequireWritable, NamesTheFileAndTheReason) {
-  const fs::path folder = fs::path(testing::TempDir()) / "refuses";
-  fs::create_directories(folder);
+  const fs::path folder = Folder("refuses");
   EXPECT_EQ(Refusal(folder),
             folder.string() + ": cannot be written: Is a directory");
   if (geteuid() == 0) return;  // Root can write every file.
