@@ -10,11 +10,11 @@
 #include "poise/robot/finding.h"
 #include "poise/robot/text_file.h"
 #include "poise/robot/urdf/urdf.h"
+#include "poise/sim/log/parse_json.h"
 #include "poise/tools/commands/command_line.h"
 #include "poise/tools/commands/doctor/check_inertia.h"
 #include "poise/tools/commands/dynamics/dynamics_file.h"
 #include "poise/tools/commands/dynamics/dynamics_table.h"
-#include "poise/tools/commands/parse_json.h"
 #include "poise/tools/commands/user_path.h"
 
 namespace poise {

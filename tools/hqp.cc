@@ -92,7 +92,8 @@ int Main(int argc, char** argv) {
     if (!json) {
       std::cout << files[i] << ": "
                 << DescribeHqpSolution(problem.hierarchy, solution, certificate,
-                                       times);
+                                       times)
+                << std::flush;
     }
     document +=
         (document.empty() ? "" : ",") +

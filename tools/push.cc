@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -13,6 +12,7 @@
 #include "poise/sim/log/summary.h"
 #include "poise/sim/scenario.h"
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/interruption.h"
 #include "poise/tools/commands/push/dump_solve.h"
 #include "poise/tools/commands/push/push_options.h"
 #include "poise/tools/commands/push/record_run.h"
@@ -20,8 +20,6 @@
 #include "poise/tools/commands/report/report_page.h"
 
 namespace {
-
-volatile std::sig_atomic_t g_interrupted = 0;
 
 bool ShowProgress(double fraction) {
   static int shown = -1;
@@ -31,7 +29,7 @@ bool ShowProgress(double fraction) {
     std::fprintf(stderr, "\r  simulated %3d %%%s", percent,
                  fraction < 1 ? "" : "\r                  \r");
   }
-  return g_interrupted == 0;
+  return !poise::IsInterrupted();
 }
 
 // Returns the options with which hqp solves ticks as this controller does.
@@ -86,8 +84,7 @@ int main(int argc, char** argv) {
     const std::string late =
         poise::BudgetWarning(options.loop->scenario().control);
     if (!late.empty()) std::cerr << late << "\n";
-    std::signal(SIGINT, [](int) { g_interrupted = 1; });
-    std::signal(SIGTERM, [](int) { g_interrupted = 1; });
+    poise::CatchInterruption();
     return Push(options);
   });
 }

@@ -2,18 +2,16 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <string>
 
 #include "poise/tools/commands/command_line.h"
+#include "poise/tools/commands/interruption.h"
 #include "poise/tools/commands/push_map/push_map_options.h"
 #include "poise/tools/commands/push_map/push_map_run.h"
 
 namespace {
-
-volatile std::sig_atomic_t g_interrupted = 0;
 
 bool ShowProgress(const poise::PushMapProgress& progress) {
   if (isatty(STDERR_FILENO) != 0) {
@@ -27,7 +25,7 @@ bool ShowProgress(const poise::PushMapProgress& progress) {
                  progress.points_done, progress.points, progress.trials, left);
     if (progress.points_done == progress.points) std::fputc('\n', stderr);
   }
-  return g_interrupted == 0;
+  return !poise::IsInterrupted();
 }
 
 void PrintTable(const poise::PushMapPlan& plan,
@@ -76,8 +74,7 @@ int Map(const poise::PushMapOptions& options) {
 int main(int argc, char** argv) {
   return poise::RunTool("push_map", [=] {
     const poise::PushMapOptions options = poise::ReadPushMapOptions(argc, argv);
-    std::signal(SIGINT, [](int) { g_interrupted = 1; });
-    std::signal(SIGTERM, [](int) { g_interrupted = 1; });
+    poise::CatchInterruption();
     return Map(options);
   });
 }

@@ -8,6 +8,7 @@
 
 #include "poise/robot/finding.h"
 #include "poise/sim/log/open_log.h"
+#include "poise/sim/log/parse_json.h"
 #include "poise/sim/log/sha256.h"
 
 namespace poise {
@@ -24,11 +25,12 @@ std::string HashOf(const std::filesystem::path& file) {
   return hash.Digest();
 }
 
+constexpr const char* kRemedy =
+    "run push again, or remove this file to read the log alone";
+
 [[noreturn]] void Refuse(const std::filesystem::path& file,
                          const std::string& defect) {
-  throw std::invalid_argument(file.string() + ": " + defect +
-                              "; run push again, or remove this file to read "
-                              "the log alone");
+  throw std::invalid_argument(file.string() + ": " + defect + "; " + kRemedy);
 }
 
 // Checks the values from which a reader computes times, or says the outcome.
@@ -63,14 +65,10 @@ void RequireValid(const nlohmann::json& values,
 
 RunSummary ReadRunSummary(const std::filesystem::path& run) {
   const std::filesystem::path file = run / "summary.json";
-  std::ifstream stream(file);
-  if (!stream) return {nullptr, "summary.json does not exist."};
-  nlohmann::json values = nlohmann::json::parse(stream, nullptr,
-                                                /*allow_exceptions=*/false);
-  if (values.is_discarded()) {
-    Refuse(file, "is not JSON, may be empty or cut short");
+  if (!std::filesystem::exists(file)) {
+    return {nullptr, "summary.json does not exist."};
   }
-  if (!values.is_object()) Refuse(file, "must be a JSON object");
+  nlohmann::json values = ReadJsonOfRun(file, kRemedy);
   RequireValid(values, file);
   const std::filesystem::path log = FindLog(run);
   const auto hash = values.find("log_sha256");

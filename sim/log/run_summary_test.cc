@@ -68,25 +68,27 @@ TEST_F(RunSummaryTest, ReportsAMissingSummary) {
 TEST_F(RunSummaryTest, RejectsABrokenSummary) {
   Write("log.csv", "abc");
   const std::pair<const char*, const char*> cases[] = {
-      {"", "is not JSON, may be empty or cut short"},
-      {R"({"recovered": tr)", "is not JSON, may be empty or cut short"},
-      {"[]", "must be a JSON object"},
-      {"{}", "has no key 'recovered', is not the summary of a run"},
+      {"", ": is empty, must be JSON"},
+      {R"({"recovered": tr)", ":1:16: is not JSON: the file ends too early"},
+      {R"({"recovered": true, "recovered": false})",
+       ": has the key \"recovered\" twice"},
+      {"[]", ": is [], must be a JSON object"},
+      {"{}", ": has no key 'recovered', is not the summary of a run"},
       {R"({"recovered": "maybe"})",
-       "recovered is \"maybe\", must be true, false or null"},
+       ": recovered is \"maybe\", must be true, false or null"},
       {R"({"recovered": true, "control_dt": -1})",
-       "control_dt is -1, must be a positive time, s"},
+       ": control_dt is -1, must be a positive time, s"},
       {R"({"recovered": true, "duration": -5})",
-       "duration is -5, must be a time of at least 0 s"},
+       ": duration is -5, must be a time of at least 0 s"},
       {R"({"recovered": true, "fell_at": "soon"})",
-       "fell_at is \"soon\", must be a time of at least 0 s"}};
+       ": fell_at is \"soon\", must be a time of at least 0 s"}};
   for (const auto& [text, defect] : cases) {
     Write("summary.json", text);
     try {
       ReadRunSummary(run_);
       ADD_FAILURE() << "accepts " << text;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(error.what(), (run_ / "summary.json").string() + ": " + defect +
+      EXPECT_EQ(error.what(), (run_ / "summary.json").string() + defect +
                                   "; run push again, or remove this file to "
                                   "read the log alone");
     }

@@ -1,12 +1,8 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/command_line.h"
 
-#include <unistd.h>
-
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -15,6 +11,7 @@
 #include <utility>
 
 #include "poise/robot/finding.h"
+#include "poise/tools/commands/interruption.h"
 
 namespace poise {
 namespace {
@@ -210,29 +207,6 @@ void RefuseEmptyEntries(const CLI::App& app, int argc, char** argv) {
 struct Help {
   std::string text;
 };
-
-// The line that a signal handler prints.
-char g_interrupted_line[80];
-
-// Prints the line, and ends the program as SIGINT does without a handler, so
-// that a shell also stops its loop. Only functions that are safe in a signal
-// handler are called.
-void EndInterrupted(int) {
-  const ssize_t written =
-      write(STDERR_FILENO, g_interrupted_line, std::strlen(g_interrupted_line));
-  (void)written;
-  std::signal(SIGINT, SIG_DFL);
-  (void)std::raise(SIGINT);
-}
-
-// Prints a line if the user interrupts the program. A program that is run in
-// the background may ignore SIGINT, and goes on to do so.
-void SayIfInterrupted(const std::string& name) {
-  std::snprintf(g_interrupted_line, sizeof g_interrupted_line,
-                "\n%s: interrupted\n", name.c_str());
-  const auto before = std::signal(SIGINT, EndInterrupted);
-  if (before == SIG_IGN) std::signal(SIGINT, SIG_IGN);
-}
 
 }  // namespace
 

@@ -16,8 +16,7 @@ void ParseCommandLine(int argc, char** argv, CLI::App* app);
 /// Runs `body` as the main() of a command and returns its exit code. If `body`
 /// throws a std::exception, or stdout cannot be written, prints one line on
 /// stderr and returns 2. If ParseCommandLine() throws the help text, prints it
-/// and returns 0. If the user interrupts the program, prints "NAME:
-/// interrupted" before the program ends, unless `body` handles SIGINT.
+/// and returns 0. Calls SayIfInterrupted().
 int RunTool(const std::string& name, const std::function<int()>& body);
 
 }  // namespace poise

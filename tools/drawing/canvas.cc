@@ -7,16 +7,25 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "poise/robot/output_file.h"
+
 namespace poise {
 namespace {
 
 constexpr double kFullTurn = 2 * 3.14159265358979323846;
 
+// Appends what cairo writes to a string.
+cairo_status_t Append(void* file, const unsigned char* bytes, unsigned count) {
+  static_cast<std::string*>(file)->append(reinterpret_cast<const char*>(bytes),
+                                          count);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// Throws std::runtime_error if cairo could not draw.
 void Check(cairo_status_t status, const std::filesystem::path& file) {
-  if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::invalid_argument(file.string() + ": cannot be written: " +
-                                cairo_status_to_string(status));
-  }
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw std::runtime_error(
+      file.string() + ": cannot be drawn: " + cairo_status_to_string(status));
 }
 
 void DrawOn(cairo_t* cairo, const std::function<void(Canvas*)>& draw) {
@@ -124,8 +133,9 @@ void WritePicture(const std::filesystem::path& stem,
                   const Eigen::Vector2d& size,
                   const std::function<void(Canvas*)>& draw) {
   const std::filesystem::path svg = stem.string() + ".svg";
+  std::string content;
   cairo_surface_t* surface =
-      cairo_svg_surface_create(svg.c_str(), size.x(), size.y());
+      cairo_svg_surface_create_for_stream(Append, &content, size.x(), size.y());
   cairo_t* cairo = cairo_create(surface);
   DrawOn(cairo, draw);
   cairo_destroy(cairo);
@@ -133,6 +143,7 @@ void WritePicture(const std::filesystem::path& stem,
   const cairo_status_t status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   Check(status, svg);
+  WriteFile(svg, content);
 
   const std::filesystem::path png = stem.string() + ".png";
   surface = cairo_image_surface_create(
@@ -143,10 +154,12 @@ void WritePicture(const std::filesystem::path& stem,
   cairo_scale(cairo, kPixelsPerPoint, kPixelsPerPoint);
   DrawOn(cairo, draw);
   cairo_destroy(cairo);
+  content.clear();
   const cairo_status_t written =
-      cairo_surface_write_to_png(surface, png.c_str());
+      cairo_surface_write_to_png_stream(surface, Append, &content);
   cairo_surface_destroy(surface);
   Check(written, png);
+  WriteFile(png, content);
 }
 
 }  // namespace poise

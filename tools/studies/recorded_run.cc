@@ -2,12 +2,13 @@
 #include "poise/tools/studies/recorded_run.h"
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "poise/dynamics/kinematics.h"
 #include "poise/sim/log/columns.h"
 #include "poise/sim/log/open_log.h"
+#include "poise/sim/log/run_summary.h"
 #include "poise/tools/drawing/push_arrows.h"
 
 namespace poise {
@@ -32,12 +33,11 @@ std::vector<std::string> ColumnNames(const RobotModel& robot) {
 RecordedRun::RecordedRun(const Robot& robot,
                          const std::filesystem::path& folder)
     : robot_(robot), columns_(FindLog(folder), ColumnNames(robot.model)) {
-  std::ifstream stream(folder / "summary.json");
-  summary_ = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  if (!summary_.is_object()) {
-    throw std::invalid_argument((folder / "summary.json").string() +
-                                ": cannot be read as JSON");
+  RunSummary read = ReadRunSummary(folder);
+  if (read.values.is_null()) {
+    throw std::invalid_argument(folder.string() + ": " + read.note);
   }
+  summary_ = std::move(read.values);
 }
 
 double RecordedRun::At(const std::string& name, double time) const {

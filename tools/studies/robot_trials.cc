@@ -18,11 +18,11 @@
 #include "poise/robot/text_file.h"
 #include "poise/robot/urdf/urdf.h"
 #include "poise/sim/experiment.h"
+#include "poise/sim/log/parse_json.h"
 #include "poise/sim/outcome.h"
 #include "poise/sim/push.h"
 #include "poise/sim/scenario.h"
 #include "poise/tools/commands/doctor/one_leg.h"
-#include "poise/tools/commands/parse_json.h"
 #include "poise/tools/commands/push/warnings.h"
 #include "poise/tools/studies/run_in_order.h"
 

@@ -8,7 +8,7 @@
 #include "poise/dynamics/rnea.h"
 #include "poise/dynamics/tick.h"
 #include "poise/math/quaternion.h"
-#include "poise/tools/commands/parse_json.h"
+#include "poise/sim/log/parse_json.h"
 
 namespace poise {
 namespace {

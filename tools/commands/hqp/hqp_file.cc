@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "poise/robot/finding.h"
-#include "poise/tools/commands/parse_json.h"
+#include "poise/sim/log/parse_json.h"
 
 namespace poise {
 namespace {

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include "poise/tools/commands/report/report_page.h"
 
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
 #include "poise/robot/output_file.h"
 #include "poise/sim/log/open_log.h"
+#include "poise/sim/log/parse_json.h"
 #include "poise/sim/log/run_summary.h"
 #include "poise/tools/commands/report/add_meshes.h"
 #include "poise/tools/commands/report/run_log.h"
@@ -21,22 +21,17 @@ using std::filesystem::path;
 // Marks the place in the page where the data are inserted.
 constexpr std::string_view kPlaceholder = "\"POISE-DATA\"";
 
-// Reads a file that may be missing: then adds a note and returns null. Throws
-// std::invalid_argument if the file is not a JSON object.
-json ReadOptional(const path& file, json* notes) {
-  std::ifstream stream(file);
-  if (!stream) {
-    notes->push_back(file.filename().string() + " is missing.");
-    return nullptr;
+// Reads the file robot.json of a run, which may be missing: then adds a note
+// and returns null.
+json ReadRobotJson(const path& run_dir, json* notes) {
+  const path file = run_dir / "robot.json";
+  if (std::filesystem::exists(file)) {
+    return ReadJsonOfRun(file,
+                         "run push again, or remove this file to see the run "
+                         "without its robot");
   }
-  json value = json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  if (!value.is_object()) {
-    throw std::invalid_argument(
-        file.string() +
-        ": is not a JSON object, may be empty or cut short; run push again, or "
-        "remove this file to see the run without its robot");
-  }
-  return value;
+  notes->push_back("robot.json is missing.");
+  return nullptr;
 }
 
 double ControlPeriod(const json& summary) {
@@ -90,7 +85,7 @@ json ReadRun(const path& run_dir) {
   RunSummary read = ReadRunSummary(run_dir);
   if (!read.note.empty()) notes.push_back(read.note);
   json summary = std::move(read.values);
-  json robot = ReadOptional(run_dir / "robot.json", &notes);
+  json robot = ReadRobotJson(run_dir, &notes);
   json timing = ReadTimingOf(run_dir, summary, {});
   return {{"name", NameOf(run_dir)},     {"summary", std::move(summary)},
           {"robot", std::move(robot)},   {"log", std::move(log)},

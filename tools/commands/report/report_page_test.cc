@@ -219,8 +219,9 @@ TEST(ReportPage, NamesTheFileThatCannotBeReadOrWritten) {
   Write(run / "robot.json", "{\"name\": \"bo");
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "robot.json").string() +
-                ": is not a JSON object, may be empty or cut short; run push "
-                "again, or remove this file to see the run without its robot");
+                ":1:12: is not JSON: a text has no closing quotation mark, or "
+                "a character that JSON forbids; run push again, or remove this "
+                "file to see the run without its robot");
   fs::remove(run / "robot.json");
   EXPECT_EQ(error([&] { WriteReport({run}, run); }),
             run.string() + ": cannot be written: Is a directory");

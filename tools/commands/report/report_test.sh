@@ -43,7 +43,7 @@ expect 0 '' run --out page.html
 rm kept/robot.json
 expect 0 "report: $PWD/kept: robot.json is missing." "$PWD/kept"
 echo '{"recovered": tr' > kept/summary.json
-expect 2 'report: kept/summary.json: is not JSON, may be empty or cut short; run push again, or remove this file to read the log alone' kept
+expect 2 'report: kept/summary.json:1:17: is not JSON: the file ends too early; run push again, or remove this file to read the log alone' kept
 
 # Both programs that read a run say the same if they do not get its folder.
 for program in "$report" "$explain"; do

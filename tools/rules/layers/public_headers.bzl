@@ -198,6 +198,7 @@ PUBLIC_HEADERS = [
     "sim/log/log_reader.h",
     "sim/log/log_rows.h",
     "sim/log/open_log.h",
+    "sim/log/parse_json.h",
     "sim/log/recorder.h",
     "sim/log/run_columns.h",
     "sim/log/run_summary.h",

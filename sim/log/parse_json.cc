@@ -1,12 +1,14 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "poise/tools/commands/parse_json.h"
+#include "poise/sim/log/parse_json.h"
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "poise/robot/finding.h"
+#include "poise/robot/text_file.h"
 
 namespace poise {
 namespace {
@@ -36,12 +38,20 @@ size_t FindOutsideTexts(std::string_view text, std::string_view part) {
 }
 
 // Returns an error of the parser in words.
-std::string Explain(const json::parse_error& error) {
+//
+// @param rest  the text from the error on.
+std::string Explain(const json::parse_error& error, std::string_view rest) {
   const std::string said = error.what();
   const auto has = [&](const char* part) {
     return said.find(part) != std::string::npos;
   };
-  if (has("unexpected end of input")) return "the file ends too early";
+  // A literal is cut short: "tr".
+  const bool is_cut =
+      has("invalid literal") &&
+      rest.find_first_not_of(" \t\r\n") == std::string_view::npos;
+  if (is_cut || has("unexpected end of input")) {
+    return "the file ends too early";
+  }
   if (has("invalid string")) {
     return "a text has no closing quotation mark, or a character that JSON "
            "forbids";
@@ -88,8 +98,9 @@ json ParseJson(std::string_view text, const std::string& source) {
     return json::parse(text.begin(), text.end(), keep);
   } catch (const json::parse_error& error) {
     const size_t at =
-        std::min(std::max<size_t>(error.byte, 1), text.size()) - 1;
-    RefuseAt(text, at, source, "is not JSON: " + Explain(error));
+        std::min(std::max<size_t>(error.byte, 1) - 1, text.size());
+    RefuseAt(text, std::min(at, text.size() - 1), source,
+             "is not JSON: " + Explain(error, text.substr(at)));
   } catch (const json::out_of_range& error) {
     // "number overflow parsing '1e400'".
     const std::string said = error.what();
@@ -98,6 +109,19 @@ json ParseJson(std::string_view text, const std::string& source) {
         said.substr(quote + 1, said.rfind('\'') - quote - 1);
     RefuseAt(text, FindOutsideTexts(text, number), source,
              "number is " + Quoted(number) + ", which is too large");
+  }
+}
+
+json ReadJsonOfRun(const std::filesystem::path& file,
+                   const std::string& remedy) {
+  constexpr size_t kMostMib = 100;
+  try {
+    json value = ParseJson(ReadTextFile(file, kMostMib), file.string());
+    if (value.is_object()) return value;
+    throw Refusal(file.string(), 0,
+                  "is " + ShowJson(value) + ", must be a JSON object");
+  } catch (const Refusal& refusal) {
+    throw std::invalid_argument(refusal.what() + ("; " + remedy));
   }
 }
 

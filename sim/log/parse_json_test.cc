@@ -1,8 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
-#include "poise/tools/commands/parse_json.h"
+#include "poise/sim/log/parse_json.h"
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -64,12 +66,34 @@ TEST(ParseJson, NamesLineAndColumnInPlainWords) {
                 "false or null");
   EXPECT_EQ(Refusal("{\n\"a\": 1"),
             "a.json:2:6: " + start + "the file ends too early");
+  for (const char* cut : {"[1, tr", "[1, tr\n\n"}) {
+    EXPECT_NE(Refusal(cut).find("the file ends too early"), std::string::npos);
+  }
+  EXPECT_EQ(Refusal("[1, trx").find("the file ends"), std::string::npos);
   EXPECT_EQ(Refusal("[\"a]"), "a.json:1:4: " + start +
                                   "a text has no closing quotation mark, or a "
                                   "character that JSON forbids");
   EXPECT_EQ(Refusal("[1.]"), "a.json:1:4: " + start + "a number is malformed");
   EXPECT_EQ(Refusal("[1,\n 1e400]"),
             "a.json:2:2: number is '1e400', which is too large");
+}
+
+TEST(ReadJsonOfRun, ReadsAnObjectOrSaysWhatToDo) {
+  const auto read = [](const char* text) {
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / "object.json";
+    std::ofstream(file) << text;
+    try {
+      return ReadJsonOfRun(file, "run push again").dump();
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).substr(file.string().size());
+    }
+  };
+  EXPECT_EQ(read("{\"a\": 1}"), "{\"a\":1}");
+  EXPECT_EQ(read("[1]"), ": is [1], must be a JSON object; run push again");
+  EXPECT_EQ(read("{\"a\": 1"),
+            ":1:7: is not JSON: the file ends too early; run push again");
+  EXPECT_EQ(read(""), ": is empty, must be JSON; run push again");
 }
 
 }  // namespace

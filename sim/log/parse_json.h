@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -17,6 +18,13 @@ namespace poise {
 ///
 /// @param source  the name of the text in messages.
 nlohmann::json ParseJson(std::string_view text, const std::string& source);
+
+/// Reads a file of a run, a JSON object. Throws std::invalid_argument with the
+/// messages of ReadTextFile() and ParseJson(), or if there is no object.
+///
+/// @param remedy  what the user can do: the end of every message.
+nlohmann::json ReadJsonOfRun(const std::filesystem::path& file,
+                             const std::string& remedy);
 
 /// Returns "1 entry" or "2 entries", for a message.
 std::string Entries(std::size_t n);
