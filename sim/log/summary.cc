@@ -242,6 +242,7 @@ Json ToJson(const Robot& robot, const Scenario& scenario,
   json["plant_dt"] = scenario.plant.dt;
   json["duration"] = simulated;
   json["push_duration"] = result.push_duration;
+  json["sensor_noise"] = scenario.sensors.noise;
   if (!scenario.pushes.empty()) {
     const PushOnRobot push(robot, MainPush(scenario));
     json["push_link"] = LinkName(robot, push);

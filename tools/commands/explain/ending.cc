@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "poise/sim/judge.h"
 #include "poise/tools/commands/format.h"
@@ -13,6 +14,10 @@ namespace {
 using nlohmann::json;
 
 constexpr double kRounding = 1e-6;  // s, rounding of a sum of ticks.
+// Beyond this multiple of the bound with one step, no step helps. Our humanoid
+// recovers from at most 1.15 times that bound, with several steps
+// (docs/generated/step_map.md).
+constexpr double kBeyondSteps = 2;
 
 // Returns whether summary.tasks.LIST has the task.
 bool HasTask(const json& summary, const char* list, const char* task) {
@@ -21,9 +26,15 @@ bool HasTask(const json& summary, const char* list, const char* task) {
   return std::find(names.begin(), names.end(), task) != names.end();
 }
 
-// Returns a sentence if the run has switched off the task that prevents such a
-// fall.
-std::string SayMissingTask(const json& summary, const std::string& fell_by) {
+// Returns a sentence about a setting of the run that other runs should change.
+std::string SaySetting(const json& summary, const std::string& fell_by) {
+  if (IsBeyondSteps(summary)) return "";
+  if (IsNoisy(summary)) {
+    return Format(
+        " The sensors had %.3g times the usual noise: with less, the robot may "
+        "recover.",
+        *NumberIn(summary, "sensor_noise"));
+  }
   const auto is_off = [&](const char* task) {
     return HasTask(summary, "without", task);
   };
@@ -31,20 +42,37 @@ std::string SayMissingTask(const json& summary, const std::string& fell_by) {
                           HasTask(summary, "with", "zmp_literal");
   if (fell_by.find("tilted") != std::string::npos && is_off("cop") &&
       !limits_cop) {
-    return " No task kept the CoP inside the soles: `cop` was switched off.";
+    return " The task `cop` was switched off, which keeps the CoP inside the "
+           "soles: with it, the robot may recover.";
   }
   if (fell_by.find("slid") != std::string::npos && is_off("friction")) {
-    return " No task kept the forces inside the friction cones: `friction` was "
-           "switched off.";
+    return " The task `friction` was switched off, which keeps the forces "
+           "inside the friction cones: with it, the robot may recover.";
   }
   return "";
 }
 
 }  // namespace
 
+std::optional<double> NumberIn(const json& summary, const char* key) {
+  const auto at = summary.find(key);
+  if (at == summary.end() || !at->is_number()) return std::nullopt;
+  return at->get<double>();
+}
+
 bool WasInterrupted(const json& summary) {
   return summary.value("interrupted", json()) == true &&
          !summary.value("fell_at", json()).is_number();
+}
+
+bool IsBeyondSteps(const json& summary) {
+  const auto impulse = NumberIn(summary, "impulse_Ns");
+  const auto with_step = NumberIn(summary, "step_Ns");
+  return impulse && with_step && *impulse > kBeyondSteps * *with_step;
+}
+
+bool IsNoisy(const json& summary) {
+  return NumberIn(summary, "sensor_noise").value_or(0) > 1;
 }
 
 std::string Ending(const json& summary) {
@@ -71,7 +99,7 @@ std::string Ending(const json& summary) {
   const json by = summary.value("fell_by", json());
   const std::string why = by.is_string() ? by.get<std::string>() : "";
   return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
-         (why.empty() ? "" : ": " + why) + "." + SayMissingTask(summary, why);
+         (why.empty() ? "" : ": " + why) + "." + SaySetting(summary, why);
 }
 
 }  // namespace poise

@@ -2,18 +2,30 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace poise {
+
+/// Returns a number of summary.json; nothing if there is no such number.
+std::optional<double> NumberIn(const nlohmann::json& summary, const char* key);
 
 /// Returns true if the run was stopped before the robot fell, so that its
 /// outcome is unknown.
 /// @param summary  summary.json.
 bool WasInterrupted(const nlohmann::json& summary);
 
+/// Returns true if the push was far larger than what the robot can recover from
+/// with steps, so that nothing but a smaller push would have helped.
+bool IsBeyondSteps(const nlohmann::json& summary);
+
+/// Returns true if the sensors were noisier than those of a usual robot.
+bool IsNoisy(const nlohmann::json& summary);
+
 /// Returns the sentence about the outcome of a run. If the robot fell, a second
-/// one names the task that the run had switched off and that prevents such a
-/// fall.
+/// one names a setting of the run with which it may have fallen: noise, or a
+/// task that was switched off although it prevents such falls. The run does not
+/// show whether the robot would have recovered with another setting.
 std::string Ending(const nlohmann::json& summary);
 
 }  // namespace poise

@@ -140,31 +140,43 @@ TEST(Explanation, ReportsTheFall) {
   EXPECT_EQ(said["sentences"].back(), "The robot fell at 1.250 s.");
 }
 
-TEST(Explanation, NamesTheTaskThatWouldHavePreventedTheFall) {
-  const auto ending = [](const std::string& fell_by, const std::string& tasks) {
+TEST(Explanation, NamesASettingThatAllowsTheFall) {
+  const auto ending = [](const std::string& fell_by, const std::string& keys) {
     const nlohmann::json said = Explain(
-        MakeRun("switched_off", kPushed,
+        MakeRun("setting", kPushed,
                 R"({"recovered": false, "fell_at": 1.25, "fell_by": ")" +
-                    fell_by + R"(", "tasks": )" + tasks + "}"));
+                    fell_by + "\", " + keys + "}"));
     return said["sentences"].back().get<std::string>();
   };
   const std::string tilted = "a foot tilted over 0.1 rad";
   const std::string slid = "a foot slid over 30 mm";
   const std::string fell = "The robot fell at 1.250 s: ";
-  EXPECT_EQ(ending(tilted, R"({"without": ["yaw", "cop"], "with": []})"),
+  const std::string cop = R"("tasks": {"without": ["yaw", "cop"], "with": []})";
+  EXPECT_EQ(ending(tilted, cop),
             fell + tilted +
-                ". No task kept the CoP inside the soles: `cop` was switched "
-                "off.");
-  EXPECT_EQ(ending(slid, R"({"without": ["friction"]})"),
+                ". The task `cop` was switched off, which keeps the CoP inside "
+                "the soles: with it, the robot may recover.");
+  EXPECT_EQ(ending(slid, R"("tasks": {"without": ["friction"]})"),
             fell + slid +
-                ". No task kept the forces inside the friction cones: "
-                "`friction` was switched off.");
+                ". The task `friction` was switched off, which keeps the "
+                "forces inside the friction cones: with it, the robot may "
+                "recover.");
   for (const char* tasks :
        {R"({"without": ["cop"], "with": ["zmp"]})", R"({"without": []})",
         R"({"without": ["friction"]})", "{}", "null", "3"}) {
-    EXPECT_EQ(ending(tilted, tasks), fell + tilted + ".") << tasks;
+    EXPECT_EQ(ending(tilted, R"("tasks": )" + std::string(tasks)),
+              fell + tilted + ".")
+        << tasks;
   }
-  EXPECT_EQ(ending(slid, R"({"without": ["cop"]})"), fell + slid + ".");
+  EXPECT_EQ(ending(slid, R"("tasks": {"without": ["cop"]})"),
+            fell + slid + ".");
+  EXPECT_EQ(ending(tilted, cop + R"(, "sensor_noise": 100)"),
+            fell + tilted +
+                ". The sensors had 100 times the usual noise: with less, the "
+                "robot may recover.");
+  // No setting makes the robot recover from such a push.
+  EXPECT_EQ(ending(tilted, cop + R"(, "impulse_Ns": 750, "step_Ns": 20)"),
+            fell + tilted + ".");
 }
 
 TEST(Explanation, OmitsEventsAfterAFall) {
@@ -567,6 +579,25 @@ TEST(Explanation, NamesEachPushInTheStory) {
             "times.");
 }
 
+TEST(Explanation, SaysThatAPushWasCutShort) {
+  const auto pushed = [](const char* planned) {
+    const nlohmann::json said = Explain(
+        MakeRun("cut_short",
+                "time[s],push.fx[N],push.fy[N],push.fz[N],status,active,lost\n"
+                "0.10,5000,0,0,ok,,\n0.12,5000,0,0,ok,,\n",
+                std::string(R"({"recovered": false, "fell_at": 0.14,
+                  "impulse_Ns": 750, "pushes": [{"duration": )") +
+                    planned + "}]}"));
+    return said["story"][0].get<std::string>();
+  };
+  EXPECT_EQ(pushed("0.15"),
+            "0.100 s: the robot is pushed forward with 5000 N for 40 ms of the "
+            "planned 150 ms, in all an impulse of 750.0 N s.");
+  EXPECT_EQ(pushed("0.04"),
+            "0.100 s: the robot is pushed forward with 5000 N for 40 ms, an "
+            "impulse of 750.0 N s.");
+}
+
 TEST(Explanation, TellsTheStoryInOrderOfTime) {
   const nlohmann::json said = Explain(MakeRun(
       "ordered",
@@ -634,6 +665,7 @@ TEST(Explanation, SummarizesAFallInOrderOfCause) {
             "Only a smaller push would have helped: its impulse was 6.0 N s, a "
             "pendulum recovers from 1.0 N s on these feet, and from 2.9 N s "
             "with one step.");
+  EXPECT_EQ(advice(R"(2.9, "sensor_noise": 2)"), "The robot fell at 0.425 s.");
   EXPECT_EQ(advice("3.1"),
             "A step or larger soles would have helped; so would a smaller "
             "push: its impulse was 6.0 N s, a pendulum on these feet recovers "

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "poise/tools/commands/explain/ending.h"
 #include "poise/tools/commands/explain/foot_story.h"
 #include "poise/tools/commands/explain/momentum_cost.h"
 #include "poise/tools/commands/explain/row_phrases.h"
@@ -21,11 +22,9 @@ using nlohmann::json;
 constexpr size_t kMostCauses = 2;  // Maximum number of named reasons of a loss.
 constexpr size_t kMostRows = 2;    // Maximum number of named rows of a cause.
 constexpr double kSmallShare = 0.1;  // Smaller shares of a loss are not named.
-// Beyond this multiple of the bound with one step, no step is advised. Our
-// humanoid recovers from at most 1.15 times that bound, with several steps
-// (docs/generated/step_map.md).
-constexpr double kBeyondSteps = 2;
-constexpr size_t kMostPushes = 4;  // Maximum number of named pushes.
+constexpr size_t kMostPushes = 4;    // Maximum number of named pushes.
+// A push that ends earlier than planned by more was cut short, s.
+constexpr double kShort = 0.005;
 
 using TimedSentence = std::pair<double, std::string>;  // Its time, s.
 
@@ -34,12 +33,6 @@ struct Slip {
   std::string foot;
   double at;
 };
-
-std::optional<double> Number(const json& summary, const char* key) {
-  const auto at = summary.find(key);
-  if (at == summary.end() || !at->is_number()) return std::nullopt;
-  return at->get<double>();
-}
 
 // Returns the direction of a force, such as " forward" or " at 30 deg". 0 is
 // forward and 90 is left.
@@ -67,6 +60,13 @@ std::string Describe(const Span& push) {
          Format(" for %.0f ms", 1e3 * push.lasted());
 }
 
+// Returns the duration of the only push of a run, s.
+std::optional<double> PlannedDuration(const json& summary) {
+  const json pushes = summary.value("pushes", json());
+  if (!pushes.is_array() || pushes.size() != 1) return std::nullopt;
+  return NumberIn(pushes[0], "duration");
+}
+
 // Names all pushes, or the first ones of many, in one sentence.
 TimedSentence SayPushes(const std::vector<Span>& pushes, const json& summary) {
   const size_t said = std::min(pushes.size(), kMostPushes);
@@ -80,9 +80,13 @@ TimedSentence SayPushes(const std::vector<Span>& pushes, const json& summary) {
   if (said < pushes.size()) {
     text += " and " + std::to_string(pushes.size() - said) + " more times";
   }
-  const auto impulse = Number(summary, "impulse_Ns");
+  const auto impulse = NumberIn(summary, "impulse_Ns");
   if (impulse && pushes.size() == 1) {
-    text += Format(", an impulse of %.1f N s", *impulse);
+    const auto planned = PlannedDuration(summary);
+    text += planned && pushes[0].lasted() < *planned - kShort
+                ? Format(" of the planned %.0f ms, in all", 1e3 * *planned)
+                : ",";
+    text += Format(" an impulse of %.1f N s", *impulse);
   }
   return {pushes[0].from, text + "."};
 }
@@ -93,7 +97,7 @@ std::optional<Slip> FindSlip(const RunStory& story, const json& summary) {
   const double end =
       story.momentum.is_lost()
           ? story.momentum.lost_at()
-          : Number(summary, "fell_at")
+          : NumberIn(summary, "fell_at")
                 .value_or(std::numeric_limits<double>::infinity());
   std::optional<Slip> first;
   for (const FootStory& foot : story.feet) {
@@ -205,16 +209,14 @@ std::string SayWhatHelps(const std::string& kind, const std::string& first,
       {"slip",
        "Rougher ground, or a lower friction coefficient in the controller, "
        "would have helped"}};
-  const auto impulse = Number(summary, "impulse_Ns");
-  const auto bearable = Number(summary, "lipm_height_Ns");
-  const auto with_step = Number(summary, "step_Ns");
-  if (is_pushed && impulse && bearable && with_step &&
-      *impulse > kBeyondSteps * *with_step) {
+  const auto impulse = NumberIn(summary, "impulse_Ns");
+  const auto bearable = NumberIn(summary, "lipm_height_Ns");
+  if (is_pushed && bearable && IsBeyondSteps(summary)) {
     return "Only a smaller push would have helped: its impulse was " +
            Format(
                "%.1f N s, a pendulum recovers from %.1f N s on these feet, "
                "and from %.1f N s with one step.",
-               *impulse, *bearable, *with_step);
+               *impulse, *bearable, *NumberIn(summary, "step_Ns"));
   }
   std::string text;
   for (const auto& [name, help] : kHelp) {
@@ -253,7 +255,7 @@ std::vector<std::string> TellShortStory(const RunStory& story,
                                         const std::vector<std::string>& notes,
                                         const std::string& ending) {
   const std::vector<MomentumCause> causes = story.momentum.Causes();
-  const auto fell_at = Number(summary, "fell_at");
+  const auto fell_at = NumberIn(summary, "fell_at");
   const auto slip = FindSlip(story, summary);
   const std::vector<Span>& pushes = story.pushes.spans();
 
@@ -274,7 +276,8 @@ std::vector<std::string> TellShortStory(const RunStory& story,
   }
   std::vector<std::string> after = notes;
   after.push_back(ending);
-  if (fell_at && (slip || !causes.empty())) {
+  // Against noise, nothing but less noise is sure to help.
+  if (fell_at && !IsNoisy(summary) && (slip || !causes.empty())) {
     after.push_back(SayWhatHelps(slip ? "slip" : causes.front().kind,
                                  slip ? "" : causes.front().rows.front().first,
                                  !pushes.empty(), summary));
