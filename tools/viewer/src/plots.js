@@ -35,9 +35,7 @@ export class Plot {
     this.element.innerHTML = `
       <header><h3></h3><p class="hint"></p><ul class="legend"></ul></header>
       <div class="canvas"></div>`;
-    this.element.querySelector('h3').innerHTML =
-        `${spec.title} <span class="unit">${spec.unit}</span>`;
-    this.element.querySelector('.hint').textContent = spec.hint ?? '';
+    this.#label();
     if (spec.control) this.element.querySelector('h3').after(spec.control);
     this.holder = this.element.querySelector('.canvas');
     parent.append(this.element);
@@ -45,10 +43,18 @@ export class Plot {
     new ResizeObserver(() => this.#resize()).observe(this.holder);
   }
 
-  setLines(lines, marks) {
-    this.spec.lines = lines;
-    this.spec.marks = marks;
+  /** Shows other lines, and what belongs to them: `part` is a part of a spec. */
+  change(part) {
+    Object.assign(this.spec, part);
+    this.#label();
     this.#build();
+  }
+
+  #label() {
+    const {title, unit, hint = ''} = this.spec;
+    this.element.querySelector('h3').innerHTML =
+        `${title} <span class="unit">${unit}</span>`;
+    this.element.querySelector('.hint').textContent = hint;
   }
 
   setPalette(palette) {
@@ -157,6 +163,7 @@ export class Plot {
     ctx.strokeStyle = ctx.fillStyle = this.#color('limit');
     ctx.lineWidth = ratio;
     ctx.font = `${10 * ratio}px system-ui, sans-serif`;
+    const labels = [];
     for (const {value, name} of this.spec.marks ?? []) {
       const y = plot.valToPos(value, 'y', true);
       if (!(y >= bbox.top - 1 && y <= bbox.top + bbox.height + 1)) continue;
@@ -166,11 +173,15 @@ export class Plot {
       ctx.lineTo(bbox.left + bbox.width, y);
       ctx.stroke();
       const below = y < bbox.top + 14 * ratio;
+      const at = y + (below ? 11 : -4) * ratio;
       const atStart = this.#distance(value, 0) > this.#distance(value, 0.7);
+      // A label beside those of marks that are as high.
+      const inset = labels.filter((label) => label.atStart === atStart &&
+                                  Math.abs(label.at - at) < 12 * ratio)
+          .reduce((sum, label) => sum + label.width + 8 * ratio, 4 * ratio);
       ctx.textAlign = atStart ? 'left' : 'right';
-      ctx.fillText(name,
-                   bbox.left + (atStart ? 4 * ratio : bbox.width - 4 * ratio),
-                   y + (below ? 11 : -4) * ratio);
+      ctx.fillText(name, bbox.left + (atStart ? inset : bbox.width - inset), at);
+      labels.push({atStart, at, width: ctx.measureText(name).width});
     }
     ctx.restore();
   }

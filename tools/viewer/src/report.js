@@ -332,10 +332,8 @@ class Page {
         runs, (run) => torquePlot(run, joint), (run) => run.torques)[0];
     const [plot] = add([{...specFor(worst), control: select}]);
     const show = (joint) => {
-      const {lines, marks, hint} = specFor(joint);
       select.value = joint;
-      plot.element.querySelector('.hint').textContent = hint;
-      plot.setLines(lines, marks);
+      plot.change(specFor(joint));
     };
     select.addEventListener('change', () => show(select.value));
     for (const run of runs) {

@@ -113,12 +113,15 @@ export function timingPlot(run) {
   };
 }
 
-/** Returns the plot of a joint's torque with its limits. */
+/** Returns the plot of a joint's torque, or of a slider's force, with its limits. */
 export function torquePlot(run, joint) {
   const effort = run.robot?.limits?.[joint]?.effort;
+  const isSlider = run.robot?.bodies?.some(
+      (body) => body.joint === joint && body.type === 'prismatic');
+  const unit = isSlider ? 'N' : 'N·m';
   return {
-    title: 'Torque', unit: 'N·m', least: 2,
-    hint: effort ? `Limit ±${effort} N·m.` : '',
+    title: isSlider ? 'Force' : 'Torque', unit, least: 2,
+    hint: effort ? `Limit ±${effort} ${unit}.` : '',
     marks: effort ? [{value: effort, name: 'limit'},
                      {value: -effort, name: 'limit'}] : [],
     lines: [{name: joint, channel: `tau.${joint}`, color: 'c1'}],

@@ -9,7 +9,7 @@ import {footprintsOf} from '../src/footprints.js';
 import {formatNumber, titleOf} from '../src/format.js';
 import {convexHull, copOf} from '../src/geometry.js';
 import {mostAtOnce, pushesText} from '../src/pushes.js';
-import {timingPlot} from '../src/specs.js';
+import {timingPlot, torquePlot} from '../src/specs.js';
 
 const base64 = (array) =>
   Buffer.from(array.buffer, array.byteOffset, array.byteLength)
@@ -206,4 +206,17 @@ test('the plot of ticks shows the control period and the budget, if there is one
   assert.deepEqual(marks({budget_us: 0}), [period]);
   assert.deepEqual(marks(undefined), [period]);
   assert.deepEqual(timingPlot({summary: {}}).marks, []);
+});
+
+test('the plot of a joint has the unit and the limit of its kind', () => {
+  const robot = {bodies: [{name: 'base'}, {joint: 'knee', type: 'revolute'},
+                          {joint: 'lift', type: 'prismatic'}],
+                 limits: {knee: {effort: 40}, lift: {effort: 300}}};
+  const plot = (joint) => torquePlot({robot}, joint);
+  assert.equal(plot('knee').unit, 'N·m');
+  assert.equal(plot('lift').unit, 'N');
+  assert.equal(plot('knee').hint, 'Limit ±40 N·m.');
+  assert.equal(plot('lift').hint, 'Limit ±300 N.');
+  assert.deepEqual(plot('lift').marks.map(({value}) => value), [300, -300]);
+  assert.equal(torquePlot({}, 'knee').unit, 'N·m');
 });
