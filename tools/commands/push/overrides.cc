@@ -86,9 +86,8 @@ void TakePush(const Overrides& o, Scenario* scenario) {
 // Adds the options about the push.
 void AddPushOptions(CLI::App* app, Overrides* o) {
   const CLI::Validator finite(RefuseInfinite, "", "finite");
-  app->add_option(
-         "--force", o->force,
-         "force of the push, N (from the scenario; 50 if it has no push)")
+  app->add_option("--force", o->force,
+                  "force of the push, N (from the scenario)")
       ->check(finite);
   app->add_option("--impulse-fraction", o->impulse_fraction,
                   "impulse of the push, as a fraction of lipm_height_Ns in "

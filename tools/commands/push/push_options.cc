@@ -167,7 +167,9 @@ Files ParseOptions(int argc, char** argv, Overrides* overrides) {
       "Pushes a humanoid in a simulation and reports whether it recovers.",
       "push");
   app.footer("Scenarios: " + ScenarioNames() +
-             ".\nTasks: see docs/tasks.md. Exit code 0: the robot recovered; "
+             ".\nAn option about the push adds one, of 50 N to the left, to a "
+             "scenario without pushes.\nTasks: see docs/tasks.md. Exit code 0: "
+             "the robot recovered; "
              "1: it did not recover; 2: bad input.");
   app.add_option("--scenario", files.scenario,
                  "name of a scenario, or a YAML file")

@@ -120,6 +120,28 @@ TEST(PushOptions, ReplacesTheBudgetOfAScenario) {
                 "control.budget_us above 0 us");
 }
 
+// The help says so.
+TEST(PushOptions, AddAPushToAScenarioWithoutPushes) {
+  const auto pushes = [](std::vector<std::string> words) {
+    words.insert(words.begin(), {"--scenario", "stand"});
+    return Read(words).loop->scenario().pushes;
+  };
+  EXPECT_TRUE(pushes({"--time", "2"}).empty());
+  const std::pair<const char*, const char*> options[] = {{"--at", "0.2"},
+                                                         {"--duration", "0.3"},
+                                                         {"--point", "0,0,0"},
+                                                         {"--force", "50"}};
+  for (const auto& [option, value] : options) {
+    const auto added = pushes({option, value});
+    ASSERT_EQ(added.size(), 1u) << option;
+    EXPECT_EQ(added[0].force, Eigen::Vector3d(0, 50, 0)) << option;
+  }
+  EXPECT_EQ(pushes({"--at", "0.2"})[0].start, 0.2);
+  // cos(pi) and sin(pi) are rounded.
+  EXPECT_TRUE(pushes({"--direction", "180"})[0].force.isApprox(
+      Eigen::Vector3d(-50, 0, 0)));
+}
+
 TEST(PushOptions, RefusesOptionsWithoutEffect) {
   EXPECT_EQ(Refusal({"--with", "zmp,cop", "--without", "yaw,cop"}),
             "task 'cop' is in --with and in --without, must be in one of them");
