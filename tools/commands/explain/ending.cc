@@ -26,30 +26,9 @@ bool HasTask(const json& summary, const char* list, const char* task) {
   return std::find(names.begin(), names.end(), task) != names.end();
 }
 
-// Returns a sentence about a setting of the run that other runs should change.
-std::string SaySetting(const json& summary, const std::string& fell_by) {
-  if (IsBeyondSteps(summary)) return "";
-  if (IsNoisy(summary)) {
-    return Format(
-        " The sensors had %.3g times the usual noise: with less, the robot may "
-        "recover.",
-        *NumberIn(summary, "sensor_noise"));
-  }
-  const auto is_off = [&](const char* task) {
-    return HasTask(summary, "without", task);
-  };
-  const bool limits_cop = HasTask(summary, "with", "zmp") ||
-                          HasTask(summary, "with", "zmp_literal");
-  if (fell_by.find("tilted") != std::string::npos && is_off("cop") &&
-      !limits_cop) {
-    return " The task `cop` was switched off, which keeps the CoP inside the "
-           "soles: with it, the robot may recover.";
-  }
-  if (fell_by.find("slid") != std::string::npos && is_off("friction")) {
-    return " The task `friction` was switched off, which keeps the forces "
-           "inside the friction cones: with it, the robot may recover.";
-  }
-  return "";
+std::string FellBy(const json& summary) {
+  const json by = summary.value("fell_by", json());
+  return by.is_string() ? by.get<std::string>() : "";
 }
 
 }  // namespace
@@ -71,8 +50,32 @@ bool IsBeyondSteps(const json& summary) {
   return impulse && with_step && *impulse > kBeyondSteps * *with_step;
 }
 
-bool IsNoisy(const json& summary) {
-  return NumberIn(summary, "sensor_noise").value_or(0) > 1;
+std::string SuspectSetting(const json& summary) {
+  if (IsBeyondSteps(summary)) return "";
+  constexpr double kUsual = 1;
+  const double noise = NumberIn(summary, "sensor_noise").value_or(0);
+  if (noise > kUsual) {
+    return Format(
+        " The sensors had %.3g times the usual noise: with less, the robot may "
+        "recover.",
+        noise);
+  }
+  const std::string fell_by = FellBy(summary);
+  const auto is_off = [&](const char* task) {
+    return HasTask(summary, "without", task);
+  };
+  const bool limits_cop = HasTask(summary, "with", "zmp") ||
+                          HasTask(summary, "with", "zmp_literal");
+  if (fell_by.find("tilted") != std::string::npos && is_off("cop") &&
+      !limits_cop) {
+    return " The task `cop` was switched off, which keeps the CoP inside the "
+           "soles: with it, the robot may recover.";
+  }
+  if (fell_by.find("slid") != std::string::npos && is_off("friction")) {
+    return " The task `friction` was switched off, which keeps the forces "
+           "inside the friction cones: with it, the robot may recover.";
+  }
+  return "";
 }
 
 std::string Ending(const json& summary) {
@@ -96,10 +99,9 @@ std::string Ending(const json& summary) {
     }
     return "The robot did not fall, but did not return to its reference.";
   }
-  const json by = summary.value("fell_by", json());
-  const std::string why = by.is_string() ? by.get<std::string>() : "";
+  const std::string why = FellBy(summary);
   return "The robot fell at " + Format("%.3f s", fell_at.get<double>()) +
-         (why.empty() ? "" : ": " + why) + "." + SaySetting(summary, why);
+         (why.empty() ? "" : ": " + why) + "." + SuspectSetting(summary);
 }
 
 }  // namespace poise

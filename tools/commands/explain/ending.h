@@ -19,13 +19,15 @@ bool WasInterrupted(const nlohmann::json& summary);
 /// with steps, so that nothing but a smaller push would have helped.
 bool IsBeyondSteps(const nlohmann::json& summary);
 
-/// Returns true if the sensors were noisier than those of a usual robot.
-bool IsNoisy(const nlohmann::json& summary);
+/// Returns a sentence, behind a space, that names a setting of the run with
+/// which the robot may have fallen: noise, or a task that was switched off
+/// although it prevents such falls. The run does not show whether the robot
+/// would have recovered with another setting. Returns an empty text if there is
+/// no such setting.
+std::string SuspectSetting(const nlohmann::json& summary);
 
-/// Returns the sentence about the outcome of a run. If the robot fell, a second
-/// one names a setting of the run with which it may have fallen: noise, or a
-/// task that was switched off although it prevents such falls. The run does not
-/// show whether the robot would have recovered with another setting.
+/// Returns the sentence about the outcome of a run, with SuspectSetting() if
+/// the robot fell.
 std::string Ending(const nlohmann::json& summary);
 
 }  // namespace poise

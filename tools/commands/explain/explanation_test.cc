@@ -665,7 +665,9 @@ TEST(Explanation, SummarizesAFallInOrderOfCause) {
             "Only a smaller push would have helped: its impulse was 6.0 N s, a "
             "pendulum recovers from 1.0 N s on these feet, and from 2.9 N s "
             "with one step.");
-  EXPECT_EQ(advice(R"(2.9, "sensor_noise": 2)"), "The robot fell at 0.425 s.");
+  EXPECT_EQ(advice(R"(3.1, "sensor_noise": 2)"),
+            "The robot fell at 0.425 s. The sensors had 2 times the usual "
+            "noise: with less, the robot may recover.");
   EXPECT_EQ(advice("3.1"),
             "A step or larger soles would have helped; so would a smaller "
             "push: its impulse was 6.0 N s, a pendulum on these feet recovers "

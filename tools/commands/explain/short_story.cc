@@ -276,8 +276,8 @@ std::vector<std::string> TellShortStory(const RunStory& story,
   }
   std::vector<std::string> after = notes;
   after.push_back(ending);
-  // Against noise, nothing but less noise is sure to help.
-  if (fell_at && !IsNoisy(summary) && (slip || !causes.empty())) {
+  // What helps is not known before a suspect setting is changed.
+  if (fell_at && SuspectSetting(summary).empty() && (slip || !causes.empty())) {
     after.push_back(SayWhatHelps(slip ? "slip" : causes.front().kind,
                                  slip ? "" : causes.front().rows.front().first,
                                  !pushes.empty(), summary));
