@@ -27,13 +27,17 @@ void RequireWritableFolder(const fs::path& folder, const fs::path& named) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) ThrowNotWritten(named);
 }
 
-// Returns the file that a chain of links names, which may not exist. A link
-// below /proc names an open file, which has no path: it is returned as it is.
+// Returns the file that a chain of links names, which may not exist. A link in
+// /proc names an open file, which need not have a path: it is returned as it
+// is.
 fs::path FollowLinks(fs::path file) {
   constexpr int kMostLinks = 40;  // As Linux follows.
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(file, error); ++i) {
-    if (file.string().rfind("/proc/", 0) == 0) break;
+    // The folder may be a link as well, as /dev/fd is.
+    const fs::path folder =
+        fs::canonical(fs::absolute(file).parent_path(), error);
+    if (folder.string().rfind("/proc/", 0) == 0) break;
     const fs::path named = fs::read_symlink(file, error);
     file = named.is_absolute() ? named : file.parent_path() / named;
   }
@@ -142,8 +146,9 @@ void RequireWritable(const fs::path& file) {
     if (access(file.c_str(), W_OK) != 0) ThrowNotWritten(file);
     return;
   }
+  const fs::path target = FollowLinks(file);
   const fs::path folder =
-      file.has_parent_path() ? file.parent_path() : fs::path(".");
+      target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (fs::is_directory(folder, error)) RequireWritableFolder(folder, file);
 }
 

@@ -13,8 +13,9 @@ namespace poise {
 /// either the old file or the new one, and the old one stays if the new one
 /// does not fit. The owner and the permissions stay. A link stays a link; the
 /// file that it names is written. Some files cannot be replaced and are written
-/// directly instead: a device, a pipe, a file with several hard links, and a
-/// file in a folder where no file can be created.
+/// directly instead: a device, a pipe, a mount point, a file with several hard
+/// links or of another owner, and a file in a folder where no file can be
+/// created. A program that is killed may leave a file FILE.PID-0.
 void WriteFile(const std::filesystem::path& file, std::string_view text);
 
 /// Makes a folder, and those above, if they do not exist. Throws

@@ -135,10 +135,16 @@ TEST(WriteFile, WritesAnOpenFileByItsDescriptor) {
   const fs::path file = Folder("descriptor") / "file";
   const int descriptor = open(file.c_str(), O_RDWR | O_CREAT, 0600);
   ASSERT_GE(descriptor, 0);
-  WriteFile("/proc/self/fd/" + std::to_string(descriptor), "text");
-  char read[5] = {};
-  EXPECT_EQ(pread(descriptor, read, 4, 0), 4);
-  EXPECT_STREQ(read, "text");
+  // A link to a folder of such links, as /dev/fd is.
+  fs::create_symlink("/proc/self/fd", file.parent_path() / "fd");
+  const fs::path folders[] = {"/proc/self/fd", file.parent_path() / "fd"};
+  for (const fs::path& folder : folders) {
+    WriteFile(folder / std::to_string(descriptor), "text");
+    char read[5] = {};
+    EXPECT_EQ(pread(descriptor, read, 4, 0), 4);
+    EXPECT_STREQ(read, "text");
+    ASSERT_EQ(ftruncate(descriptor, 0), 0);
+  }
   close(descriptor);
 }
 

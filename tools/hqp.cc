@@ -89,15 +89,16 @@ int Main(int argc, char** argv) {
     all_optimal &=
         sequence.Solve(problem, &solution, &times) == Status::kOptimal;
     const Certificate& certificate = solution.certificate;
-    if (!json) {
-      std::cout << files[i] << ": "
-                << DescribeHqpSolution(problem.hierarchy, solution, certificate,
-                                       times)
-                << std::flush;
+    if (json) {
+      document +=
+          (document.empty() ? "" : ",") +
+          WriteHqpSolution(problem.hierarchy, solution, certificate, times);
+      continue;
     }
-    document +=
-        (document.empty() ? "" : ",") +
-        WriteHqpSolution(problem.hierarchy, solution, certificate, times);
+    std::cout << files[i] << ": "
+              << DescribeHqpSolution(problem.hierarchy, solution, certificate,
+                                     times)
+              << std::flush;
   }
   if (json) {
     std::cout << (files.size() == 1 ? document : "[" + document + "]") << "\n";

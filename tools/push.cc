@@ -1,12 +1,10 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #include <unistd.h>
 
-#include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <string>
 
-#include "poise/robot/control/controller.h"
 #include "poise/robot/finding.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/sim/log/summary.h"
@@ -32,32 +30,17 @@ bool ShowProgress(double fraction) {
   return !poise::IsInterrupted();
 }
 
-// Returns the options with which hqp solves ticks as this controller does.
-std::string LimitsOf(const poise::ControlSettings& control) {
-  std::string limits =
-      "--max-iterations " +
-      std::to_string(poise::ControllerOptions().max_iterations) + " ";
-  if (control.budget_us > 0 && !control.budget_clock) {
-    char digits[32];
-    limits += "--budget-us ";
-    limits.append(
-        digits,
-        std::to_chars(digits, digits + sizeof(digits), control.budget_us).ptr);
-    limits += " ";
-  }
-  return limits;
-}
-
 int Push(const poise::PushOptions& options) {
   const poise::Robot& robot = options.loop->robot();
   const poise::Scenario& scenario = options.loop->scenario();
   std::string dumped;
   if (options.dumped) {
-    dumped = "\nTo solve again: bazel run //tools:hqp -- " +
-             LimitsOf(scenario.control) +
-             poise::DumpSolve({robot, scenario}, *options.dumped, options.out)
-                 .string();
+    dumped = "\nTo solve again: " +
+             poise::SolveAgain(scenario.control, *options.dumped,
+                               poise::DumpSolve({robot, scenario},
+                                                *options.dumped, options.out));
   }
+  poise::CatchInterruption();
   const auto [result, step_Ns, files] = poise::RecordRun(
       options.loop.get(), options.out, ShowProgress, options.log);
   if (options.report) {
@@ -84,7 +67,6 @@ int main(int argc, char** argv) {
     const std::string late =
         poise::BudgetWarning(options.loop->scenario().control);
     if (!late.empty()) std::cerr << late << "\n";
-    poise::CatchInterruption();
     return Push(options);
   });
 }

@@ -125,9 +125,11 @@ bool BinaryLogReader::ReadHeader() {
 bool BinaryLogReader::Next() {
   if (columns_.empty() || cut_short_) return false;
   if (stream_.peek() == std::ifstream::traits_type::eof()) return false;
-  cut_short_ = !ReadRow();
   ++rows_read_;
-  return !cut_short_;
+  cut_short_ = !ReadRow();
+  if (cut_short_) return false;
+  if (!ParseRow()) throw std::invalid_argument(place() + ": is damaged");
+  return true;
 }
 
 uint64_t BinaryLogReader::BytesLeft() {
@@ -137,10 +139,11 @@ uint64_t BinaryLogReader::BytesLeft() {
 
 bool BinaryLogReader::ReadRow() {
   uint64_t size;
-  if (!ReadNumber(4, &stream_, &size) || size > BytesLeft() ||
-      !Read(size, &stream_, &row_)) {
-    return false;
-  }
+  return ReadNumber(4, &stream_, &size) && size <= BytesLeft() &&
+         Read(size, &stream_, &row_);
+}
+
+bool BinaryLogReader::ParseRow() {
   std::string_view rest = row_, lengths, bytes;
   if (!Take((columns_.size() + 1) / 2, &rest, &lengths)) return false;
   for (std::size_t i = 0; i < columns_.size(); ++i) {

@@ -35,7 +35,10 @@ class BinaryLogReader final : public LogReader {
 
  private:
   bool ReadHeader();
+  // Returns false if the row is incomplete.
   bool ReadRow();
+  // Returns false if the bytes of the row contradict each other.
+  bool ParseRow();
   uint64_t BytesLeft();
 
   std::filesystem::path file_;

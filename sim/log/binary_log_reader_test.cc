@@ -113,6 +113,22 @@ TEST(BinaryLogReader, ReadsAllCompleteRowsOfALogThatIsCutAnywhere) {
   EXPECT_EQ(before, kRows - 1);
 }
 
+TEST(BinaryLogReader, NamesADamagedRow) {
+  std::string damaged = Log(LogFormat::kBinary);
+  const std::size_t header =
+      MakeLogRows(LogFormat::kBinary, kColumns)->Header().size();
+  // Behind the size of the first row is the length of its first cell.
+  damaged[header + 4] = static_cast<char>(0xff);
+  BinaryLogReader log(Written(damaged));
+  try {
+    log.Next();
+    ADD_FAILURE() << "reads a damaged row";
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.substr(text.find(": ")), ": row 1: is damaged");
+  }
+}
+
 TEST(BinaryLogReader, StopsAtDamage) {
   const std::string whole = Log(LogFormat::kBinary);
   for (std::size_t at = 8; at < whole.size(); ++at) {

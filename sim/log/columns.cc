@@ -208,6 +208,14 @@ std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
   return columns;
 }
 
+std::string LogName(std::string name) {
+  constexpr std::string_view kSeparators = ",;=|\n\r";
+  for (char& c : name) {
+    if (kSeparators.find(c) != std::string_view::npos) c = '_';
+  }
+  return name;
+}
+
 ColumnGroup GroupOf(std::string_view column) {
   const std::string_view name = WithoutUnit(column);
   if (name == WithoutUnit(kTimeColumn)) return ColumnGroup::kTime;

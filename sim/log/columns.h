@@ -61,6 +61,10 @@ std::vector<LogColumn> LogColumns(const std::vector<std::string>& feet,
                                   const std::vector<std::string>& tasks,
                                   int num_levels);
 
+/// Returns a name as cells of a log and summary.json have it: separators of
+/// cells and of lists become '_'.
+std::string LogName(std::string name);
+
 /// The quantity of a column.
 enum class ColumnGroup {
   kTime,

@@ -78,5 +78,10 @@ TEST(Columns, HaveNoGroupForAnUnknownName) {
   }
 }
 
+TEST(LogName, HasNoSeparators) {
+  EXPECT_EQ(LogName("left foot"), "left foot");
+  EXPECT_EQ(LogName("a,b;c=d|e\nf\rg"), "a_b_c_d_e_f_g");
+}
+
 }  // namespace
 }  // namespace poise

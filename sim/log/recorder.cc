@@ -51,16 +51,8 @@ std::string Reason(const TickRecord& record) {
   if (report.status == TickStatus::kTruncated) {
     return "rank_" + std::to_string(report.failed_level);
   }
-  if (report.relaxed) return record.stack.RowName(*report.relaxed);
+  if (report.relaxed) return LogName(record.stack.RowName(*report.relaxed));
   return std::string(ReasonName(report.fail_safe_reason));
-}
-
-// Replaces the separators of lists in a name, so that lists can be parsed.
-std::string WithoutSeparators(std::string name) {
-  for (char& c : name) {
-    if (c == ';' || c == '=' || c == '|') c = '_';
-  }
-  return name;
 }
 
 // Returns the highest level with a row that is not met; -1 if all rows are met.
@@ -85,8 +77,17 @@ std::vector<std::string> BodyNames(const Tree& tree) {
   for (const Frame& frame : tree.frames()) {
     if (names[frame.body].empty()) names[frame.body] = frame.name;
   }
-  for (std::string& name : names) name = WithoutSeparators(name);
+  for (std::string& name : names) name = LogName(name);
   return names;
+}
+
+// Writes rows, and clears them: the destructor must not write them again if the
+// other file cannot be written.
+void Write(const std::filesystem::path& file, std::string* rows,
+           std::ofstream* stream) {
+  *stream << *rows << std::flush;
+  if (!*stream) ThrowNotWritten(file);
+  rows->clear();
 }
 
 std::ofstream Open(const std::filesystem::path& file) {
@@ -191,7 +192,7 @@ void Recorder::Entry(std::string_view name, double value) {
   const auto end = std::to_chars(digits, digits + sizeof(digits), value,
                                  std::chars_format::general, 4);
   if (!entries_.empty()) entries_ += ';';
-  entries_ += WithoutSeparators(std::string(name));
+  entries_ += LogName(std::string(name));
   entries_ += '=';
   entries_.append(digits, end.ptr);
 }
@@ -296,11 +297,9 @@ void Recorder::Record(const TickRecord& record) {
 }
 
 void Recorder::Flush() {
-  if (!(log_ << log_rows_ << std::flush)) ThrowNotWritten(log_file_);
-  if (!(timing_ << timing_rows_ << std::flush)) ThrowNotWritten(TimingFile());
-  log_rows_.clear();
-  timing_rows_.clear();
   rows_waiting_ = 0;
+  Write(log_file_, &log_rows_, &log_);
+  Write(TimingFile(), &timing_rows_, &timing_);
 }
 
 }  // namespace poise

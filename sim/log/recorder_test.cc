@@ -3,16 +3,21 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <utility>
 
 #include "poise/robot/profile/profile.h"
@@ -276,6 +281,35 @@ TEST(Recorder, NamesTheFileOnAFullDisk) {
             }),
             (folder / "timing.csv").string() +
                 ": cannot be written: No space left on device");
+}
+
+// Where timing.csv cannot be written, the rows of the log already are.
+TEST(Recorder, WritesNoRowTwiceAfterAnError) {
+  ClosedLoop loop(Humanoid(), Pushed());
+  const auto folder = Folder("pipe");
+  std::filesystem::create_directories(folder);
+  const std::string pipe = (folder / "timing.csv").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::thread reader([&] {
+    std::string header;
+    std::getline(std::ifstream(pipe), header);
+  });
+  EXPECT_EQ(ErrorOf([&] {
+              Recorder recorder(folder, Humanoid(), loop.controller().stack());
+              for (int k = 0; k < 1000; ++k) {
+                loop.Tick();
+                recorder.Record(loop.record());
+              }
+            }),
+            pipe + ": cannot be written: Broken pipe");
+  reader.join();
+  std::istringstream log(Contents(folder / "log.csv"));
+  std::set<std::string> rows;
+  for (std::string row; std::getline(log, row);) {
+    EXPECT_TRUE(rows.insert(row).second) << row;
+  }
+  EXPECT_GT(rows.size(), 1u);
 }
 
 // The recorder runs in a child process. SIGKILL leaves it no chance to write

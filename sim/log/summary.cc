@@ -10,6 +10,7 @@
 #include "poise/robot/control/stack.h"
 #include "poise/robot/control/task.h"
 #include "poise/robot/finding.h"
+#include "poise/sim/log/columns.h"
 #include "poise/sim/push.h"
 
 namespace poise {
@@ -53,6 +54,7 @@ Json PushesToJson(const Robot& robot, const Scenario& scenario) {
     entry["body"] = aimed.body();
     entry["point"] = Numbers(aimed.p_BoQ_B());
     entry["force"] = Numbers(aimed.force());
+    entry["moment"] = Numbers(push.moment);
     entry["frame"] = push.frame == PushFrame::kWorld ? "world" : "body";
     entry["at"] = push.start;
     entry["duration"] = push.duration;
@@ -84,15 +86,6 @@ Json StepsToJson(const Robot& robot, const RunResult& result) {
     list.push_back(std::move(entry));
   }
   return list;
-}
-
-// Returns the key of a row: its name as in log.csv, without separators.
-std::string LogName(std::string name) {
-  for (char& c : name) {
-    const bool separates = c == ',' || c == ';' || c == '=' || c == '|';
-    if (separates || c == '\n' || c == '\r') c = '_';
-  }
-  return name;
 }
 
 Json Times(const TickTimes& us) {
@@ -131,6 +124,13 @@ std::string TimesLine(const char* label, const TickTimes& us) {
               us.median, us.p99, us.p999, us.max);
 }
 
+// Returns the moment of a push without a force as a line of the table.
+std::string MomentLine(const Robot& robot, const Push& push) {
+  return Line("push", "a moment of up to %.0f N m for %.3f s on %s",
+              push.moment.norm(), push.duration,
+              OneLine(LinkName(robot, PushOnRobot(robot, push))).c_str());
+}
+
 // Returns one push as a line of the table. Several pushes need their start
 // times.
 std::string PushLine(const Robot& robot, const Push& push, double until,
@@ -160,14 +160,17 @@ std::string PushLines(const Robot& robot, const Scenario& scenario) {
   for (const Push& push : scenario.pushes) {
     is_late = is_late && push.start >= scenario.duration;
     is_zero = is_zero && IsZero(push);
-    if (ImpulseOf(push, scenario.duration) > 0) shown.push_back(&push);
+    const bool has_begun = push.start < scenario.duration;
+    if (has_begun && !IsZero(push)) shown.push_back(&push);
   }
   if (is_late) return Line("push", "%s", "none before the end of the run");
   if (is_zero) return Line("push", "%s", "none: all forces or durations are 0");
   const int count = static_cast<int>(shown.size());
   std::string lines;
   for (int i = 0; i < std::min(count, kMostLines); ++i) {
-    lines += PushLine(robot, *shown[i], scenario.duration, count > 1);
+    lines += shown[i]->force.isZero(0)
+                 ? MomentLine(robot, *shown[i])
+                 : PushLine(robot, *shown[i], scenario.duration, count > 1);
   }
   if (count > kMostLines) {
     lines += Line("push", "and %d more", count - kMostLines);

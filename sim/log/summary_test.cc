@@ -110,7 +110,8 @@ TEST(Summary, PrintsALineForEachPushWithItsOwnForce) {
   for (Push& push : scenario.pushes) push.force.setZero();
   EXPECT_TRUE(has("none: all forces or durations are 0"));
   scenario.pushes[0].moment.z() = 1;
-  EXPECT_FALSE(has("none: all forces or durations are 0"));
+  EXPECT_TRUE(has("a moment of up to 1 N m for 0.020 s on head"));
+  EXPECT_EQ(ToJson(robot, scenario, {}, {})["pushes"][0]["moment"][2], 1);
   scenario.pushes.clear();
   EXPECT_EQ(table().find("push"), std::string::npos);
   // The table shows at most five pushes.

@@ -241,12 +241,14 @@ void ParseCommandLine(int argc, char** argv, CLI::App* app) {
 int RunTool(const std::string& name, const std::function<int()>& body) {
   SayIfInterrupted(name);
   try {
-    const int code = body();
+    int code = 0;
+    try {
+      code = body();
+    } catch (const Help& help) {
+      std::cout << help.text;
+    }
     if (std::cout.flush() && std::fflush(stdout) == 0) return code;
     std::cerr << name << ": the output cannot be written\n";
-  } catch (const Help& help) {
-    std::cout << help.text;
-    return 0;
   } catch (const std::exception& error) {
     std::cerr << name << ": " << OneLine(error.what()) << "\n";
   }

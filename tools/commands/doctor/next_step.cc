@@ -9,23 +9,10 @@
 #include <filesystem>
 
 #include "poise/robot/finding.h"
+#include "poise/tools/commands/shell_word.h"
 
 namespace poise {
 namespace {
-
-// Returns a word of a shell command, in quotes if it needs them.
-std::string ShellWord(const std::string& text) {
-  const bool is_plain = std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string("_./-+").find(c) != std::string::npos;
-  });
-  if (is_plain && !text.empty()) return text;
-  std::string word = "'";
-  for (const char c : OneLine(text)) {
-    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return word + "'";
-}
 
 // Returns a string literal of Python.
 std::string PythonText(const std::string& text) {

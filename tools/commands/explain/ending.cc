@@ -14,9 +14,9 @@ namespace {
 using nlohmann::json;
 
 constexpr double kRounding = 1e-6;  // s, rounding of a sum of ticks.
-// Beyond this multiple of the bound with one step, no step helps. Our humanoid
-// recovers from at most 1.15 times that bound, with several steps
-// (docs/generated/step_map.md).
+// Beyond this multiple of the bound with one step, or of that without a step if
+// it is larger, no step helps. Our humanoid recovers from at most 1.15 times
+// the bound with one step, with several steps (docs/generated/step_map.md).
 constexpr double kBeyondSteps = 2;
 
 // Returns whether summary.tasks.LIST has the task.
@@ -46,8 +46,11 @@ bool WasInterrupted(const json& summary) {
 
 bool IsBeyondSteps(const json& summary) {
   const auto impulse = NumberIn(summary, "impulse_Ns");
+  const auto bearable = NumberIn(summary, "lipm_height_Ns");
   const auto with_step = NumberIn(summary, "step_Ns");
-  return impulse && with_step && *impulse > kBeyondSteps * *with_step;
+  // The bound is 0 if the legs cannot reach a place for a step.
+  return impulse && bearable && with_step &&
+         *impulse > kBeyondSteps * std::max(*bearable, *with_step);
 }
 
 std::string SuspectSetting(const json& summary) {
@@ -87,7 +90,11 @@ std::string Ending(const json& summary) {
   }
   const json recovered = summary.value("recovered", json());
   if (recovered.is_null()) return "The end of the run is not recorded.";
-  if (recovered == true) return "The robot recovered.";
+  if (recovered == true) {
+    return summary.value("commanded_done", json()) == false
+               ? "The robot recovered, but the commanded motion did not happen."
+               : "The robot recovered.";
+  }
   const json fell_at = summary.value("fell_at", json());
   if (!fell_at.is_number()) {
     const json after = summary.value("time_after_push", json());

@@ -110,7 +110,10 @@ std::string SayWhy(const std::string& reason, const RowPhrases& phrases) {
     return ": the robot's state is invalid (not finite, too large, or the "
            "quaternion is not normalized)";
   if (reason == "clock") return ": the time of the robot's state stands still";
-  if (reason == "no_answer") return ": no solution satisfies the dynamics";
+  if (reason == "no_answer") {
+    return ": the solver has no solution that satisfies the dynamics, or a row "
+           "is not finite";
+  }
   if (!reason.empty())
     return ": the most violated limit is " + phrases.phrase(reason);
   return "";

@@ -44,7 +44,7 @@ namespace poise {
 ///                limits that kept the momentum from its target, see
 ///                MomentumCost.
 ///     story      [sentence, ...]: a summary of at most six sentences, in order
-///                of cause.
+///                of time.
 ///
 /// Throws std::invalid_argument with the name of the file if there is no log,
 /// or if the log does not have the columns of the controller.

@@ -175,7 +175,8 @@ TEST(Explanation, NamesASettingThatAllowsTheFall) {
                 ". The sensors had 100 times the usual noise: with less, the "
                 "robot may recover.");
   // No setting makes the robot recover from such a push.
-  EXPECT_EQ(ending(tilted, cop + R"(, "impulse_Ns": 750, "step_Ns": 20)"),
+  EXPECT_EQ(ending(tilted, cop + R"(, "impulse_Ns": 750, "lipm_height_Ns": 17,
+                                "step_Ns": 20)"),
             fell + tilted + ".");
 }
 
@@ -384,8 +385,9 @@ TEST(Explanation, ReportsReasonOfFailSafe) {
             "robot's state is invalid (not finite, too large, or the "
             "quaternion is not normalized).");
   EXPECT_EQ(said["sentences"][2],
-            "0.900 s: the controller reports fail safe until 0.900 s: no "
-            "solution satisfies the dynamics.");
+            "0.900 s: the controller reports fail safe until 0.900 s: the "
+            "solver has no solution that satisfies the dynamics, or a row is "
+            "not finite.");
   EXPECT_EQ(said["sentences"][3],
             "1.300 s: the controller reports limit relaxed until 1.300 s.");
 }
@@ -579,6 +581,39 @@ TEST(Explanation, NamesEachPushInTheStory) {
             "times.");
 }
 
+// The log has steps of the feet also while the robot is falling.
+TEST(Explanation, TellsNoStepAfterTheFall) {
+  const auto log = [](const char* landing) {
+    return std::string(
+               "time[s],status,active,lost,left_foot.contact,left_foot.phase\n"
+               "0.10,ok,,,1,down\n0.11,ok,,,0,stepping\n0.12,ok,,,0,stepping\n"
+               "0.13,ok,,,0,stepping\n") +
+           landing;
+  };
+  const std::string lands = "0.14,ok,,,1,landing\n0.15,ok,,,1,down\n";
+  const auto story = [&](const std::string& rows, const char* fell_at) {
+    const nlohmann::json said = Explain(MakeRun(
+        "falling", log(rows.c_str()),
+        std::string(R"({"recovered": false, "fell_at": )") + fell_at + "}"));
+    std::string text;
+    for (const std::string sentence : said["story"]) text += sentence + "\n";
+    return text;
+  };
+  EXPECT_NE(story(lands, "0.2").find("steps with the left foot in 0.03 s"),
+            std::string::npos)
+      << story(lands, "0.2");
+  EXPECT_NE(story(lands, "0.125").find("and does not land"), std::string::npos)
+      << story(lands, "0.125");
+  EXPECT_EQ(story(lands, "0.105").find("steps with"), std::string::npos);
+}
+
+TEST(Explanation, SaysThatACommandWasNotDone) {
+  const nlohmann::json said = Explain(MakeRun(
+      "not_done", kPushed, R"({"recovered": true, "commanded_done": false})"));
+  EXPECT_EQ(said["sentences"].back(),
+            "The robot recovered, but the commanded motion did not happen.");
+}
+
 TEST(Explanation, SaysThatAPushWasCutShort) {
   const auto pushed = [](const char* planned) {
     const nlohmann::json said = Explain(
@@ -649,27 +684,40 @@ TEST(Explanation, SummarizesAFallInOrderOfCause) {
           "0.420 s, because of the CoP of the left foot at its front edge "
           "and the CoP of the right foot at its front edge (100 %).",
           "The robot fell at 0.425 s: a foot tilted over 0.1 rad.",
-          "A step or larger soles would have helped; so would a smaller "
+          "A step or larger soles may have helped; so may a smaller "
           "push: its impulse was 6.0 N s, a pendulum on these feet recovers "
           "from 4.0 N s."}));
   EXPECT_GT(said["sentences"].size(), story.size());
-  const auto advice = [&](const std::string& step_Ns) {
-    const nlohmann::json far =
-        Explain(MakeRun("far", log,
-                        Described(R"({"recovered": false, "fell_at": 0.425,
-          "impulse_Ns": 6, "lipm_height_Ns": 1, "step_Ns": )" +
-                                  step_Ns + "}")));
+  const auto advice = [&](const std::string& step_Ns,
+                          const std::string& bearable = "1") {
+    const nlohmann::json far = Explain(MakeRun(
+        "far", log,
+        Described(R"({"recovered": false, "fell_at": 0.425,
+          "impulse_Ns": 6, "step_Ns": )" +
+                  step_Ns + R"(, "lipm_height_Ns": )" + bearable + "}")));
     return far["story"].back().get<std::string>();
   };
   EXPECT_EQ(advice("2.9"),
             "Only a smaller push would have helped: its impulse was 6.0 N s, a "
             "pendulum recovers from 1.0 N s on these feet, and from 2.9 N s "
             "with one step.");
+  // The log has no moments, so that no cause is known.
+  EXPECT_EQ(advice(R"(3.1, "pushes": [{"moment": [0, 0, 9]}])"),
+            "The robot fell at 0.425 s.");
+  EXPECT_NE(advice(R"(3.1, "pushes": [{"moment": [0, 0, 0]}])"),
+            "The robot fell at 0.425 s.");
   EXPECT_EQ(advice(R"(3.1, "sensor_noise": 2)"),
             "The robot fell at 0.425 s. The sensors had 2 times the usual "
             "noise: with less, the robot may recover.");
+  // The legs reach no place for a step, so that only the feet count.
+  EXPECT_EQ(advice("0", "3.1").substr(0, 38),
+            "A step or larger soles may have helped");
+  EXPECT_EQ(advice("0"),
+            "Only a smaller push would have helped: its impulse was 6.0 N s, a "
+            "pendulum recovers from 1.0 N s on these feet, and the legs reach "
+            "no place for a step.");
   EXPECT_EQ(advice("3.1"),
-            "A step or larger soles would have helped; so would a smaller "
+            "A step or larger soles may have helped; so may a smaller "
             "push: its impulse was 6.0 N s, a pendulum on these feet recovers "
             "from 1.0 N s.");
 }
@@ -691,7 +739,7 @@ TEST(Explanation, NamesSlipAsCauseOfAFall) {
             "than 5 mm.");
   EXPECT_EQ(story[3],
             "Rougher ground, or a lower friction coefficient in the "
-            "controller, would have helped.");
+            "controller, may have helped.");
 }
 
 TEST(Explanation, ReportsMostViolatedLimitAndFailedLevel) {

@@ -36,7 +36,8 @@ struct MomentumCause {
 /// Once F exceeds the robot's weight, active constraints are a consequence of
 /// the fall and do not count. Losses more than 0.5 s apart are separate
 /// episodes. Only the last episode counts. A loss without an active constraint
-/// and without a conflict begins none: there, the solver was cut off.
+/// and without a conflict does not begin an episode, because the solver was cut
+/// off there.
 class MomentumCost {
  public:
   /// Adds a tick of the log.

@@ -67,7 +67,10 @@ void AddPush(const LogReader& reader, const std::vector<int>& columns,
     parts.emplace_back(reader.columns()[column], part);
     square += part * part;
   }
-  if (square > 0) pushes->Add("push", tick, std::sqrt(square), parts);
+  // Rounding may leave a force at the end of a push.
+  constexpr double kLeast = 1e-6;  // N.
+  if (square > kLeast * kLeast)
+    pushes->Add("push", tick, std::sqrt(square), parts);
 }
 
 // Parses a cell such as "a|b;c|d" and adds each pair of links.

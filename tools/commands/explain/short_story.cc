@@ -67,6 +67,18 @@ std::optional<double> PlannedDuration(const json& summary) {
   return NumberIn(pushes[0], "duration");
 }
 
+// Returns whether a push had a moment, which the log does not have.
+bool HasMoment(const json& summary) {
+  const json pushes = summary.value("pushes", json());
+  if (!pushes.is_array()) return false;
+  return std::any_of(pushes.begin(), pushes.end(), [](const json& push) {
+    const json moment =
+        push.is_object() ? push.value("moment", json()) : json();
+    return std::any_of(moment.begin(), moment.end(),
+                       [](const json& part) { return part != 0; });
+  });
+}
+
 // Names all pushes, or the first ones of many, in one sentence.
 TimedSentence SayPushes(const std::vector<Span>& pushes, const json& summary) {
   const size_t said = std::min(pushes.size(), kMostPushes);
@@ -126,11 +138,13 @@ std::string Rows(const MomentumCause& cause) {
              : text + " and " + std::to_string(count - said) + " more";
 }
 
-// Returns at most two sentences about the steps of the robot.
-std::vector<TimedSentence> SaySteps(const RunStory& story) {
+// Returns at most two sentences about the steps of the robot until its fall.
+std::vector<TimedSentence> SaySteps(const RunStory& story, double until) {
   std::vector<std::pair<FootStory::Step, std::string>> steps;
   for (const FootStory& foot : story.feet) {
-    for (const FootStory::Step& step : foot.steps()) {
+    for (FootStory::Step step : foot.steps()) {
+      if (step.at > until) continue;
+      step.has_landed &= step.landing <= until;
       steps.emplace_back(step, foot.foot());
     }
   }
@@ -196,37 +210,45 @@ std::string SayLoss(const RunStory& story,
 }
 
 std::string SayWhatHelps(const std::string& kind, const std::string& first,
-                         bool is_pushed, const json& summary) {
-  constexpr std::pair<std::string_view, const char*> kHelp[] = {
-      {"cop_limit", "A step or larger soles would have helped"},
-      {"friction_limit", "More friction would have helped"},
-      {"yaw_limit", "More friction or larger soles would have helped"},
-      {"normal_force_limit", "A step or a wider stance would have helped"},
-      {"torque_limit", "Stronger motors would have helped"},
+                         const RunStory& story, const json& summary) {
+  const bool is_pushed = !story.pushes.spans().empty();
+  const bool has_stepped =
+      std::any_of(story.feet.begin(), story.feet.end(),
+                  [](const FootStory& foot) { return !foot.steps().empty(); });
+  const std::pair<std::string_view, const char*> kHelp[] = {
+      {"cop_limit", has_stepped ? "Longer or earlier steps may have helped"
+                                : "A step or larger soles may have helped"},
+      {"friction_limit", "More friction may have helped"},
+      {"yaw_limit", "More friction or larger soles may have helped"},
+      {"normal_force_limit", has_stepped
+                                 ? "Longer or earlier steps may have helped"
+                                 : "A step or a wider stance may have helped"},
+      {"torque_limit", "Stronger motors may have helped"},
       {"joint_limit",
        "Joints with more range, or a posture farther from their stops, would "
        "have helped"},
       {"slip",
        "Rougher ground, or a lower friction coefficient in the controller, "
-       "would have helped"}};
+       "may have helped"}};
   const auto impulse = NumberIn(summary, "impulse_Ns");
   const auto bearable = NumberIn(summary, "lipm_height_Ns");
-  if (is_pushed && bearable && IsBeyondSteps(summary)) {
+  if (is_pushed && IsBeyondSteps(summary)) {
+    const double with_step = *NumberIn(summary, "step_Ns");
     return "Only a smaller push would have helped: its impulse was " +
-           Format(
-               "%.1f N s, a pendulum recovers from %.1f N s on these feet, "
-               "and from %.1f N s with one step.",
-               *impulse, *bearable, *NumberIn(summary, "step_Ns"));
+           Format("%.1f N s, a pendulum recovers from %.1f N s on these feet, ",
+                  *impulse, *bearable) +
+           (with_step > 0
+                ? Format("and from %.1f N s with one step.", with_step)
+                : "and the legs reach no place for a step.");
   }
   std::string text;
   for (const auto& [name, help] : kHelp) {
     if (kind == name) text = help;
   }
-  if (text.empty()) text = "A wider limit would have helped: " + first;
+  if (text.empty()) text = "A wider limit may have helped: " + first;
   if (is_pushed && impulse && bearable && *impulse > *bearable) {
     text +=
-        Format("; so would a smaller push: its impulse was %.1f N s",
-               *impulse) +
+        Format("; so may a smaller push: its impulse was %.1f N s", *impulse) +
         Format(", a pendulum on these feet recovers from %.1f N s", *bearable);
   }
   return text + ".";
@@ -256,13 +278,16 @@ std::vector<std::string> TellShortStory(const RunStory& story,
                                         const std::string& ending) {
   const std::vector<MomentumCause> causes = story.momentum.Causes();
   const auto fell_at = NumberIn(summary, "fell_at");
+  const double until =
+      fell_at.value_or(std::numeric_limits<double>::infinity());
   const auto slip = FindSlip(story, summary);
   const std::vector<Span>& pushes = story.pushes.spans();
 
   // In order of importance, until they are sorted.
   std::vector<TimedSentence> before;
   if (!pushes.empty()) before.push_back(SayPushes(pushes, summary));
-  for (TimedSentence& step : SaySteps(story)) before.push_back(std::move(step));
+  for (TimedSentence& step : SaySteps(story, until))
+    before.push_back(std::move(step));
   if (fell_at && slip) {
     before.emplace_back(
         slip->at, Format("%.3f s: ", slip->at) + slip->foot +
@@ -276,11 +301,12 @@ std::vector<std::string> TellShortStory(const RunStory& story,
   }
   std::vector<std::string> after = notes;
   after.push_back(ending);
-  // What helps is not known before a suspect setting is changed.
-  if (fell_at && SuspectSetting(summary).empty() && (slip || !causes.empty())) {
+  // One cannot know more before a suspect setting is changed.
+  if (fell_at && SuspectSetting(summary).empty() && !HasMoment(summary) &&
+      (slip || !causes.empty())) {
     after.push_back(SayWhatHelps(slip ? "slip" : causes.front().kind,
                                  slip ? "" : causes.front().rows.front().first,
-                                 !pushes.empty(), summary));
+                                 story, summary));
   }
   const size_t length = kStoryLength - (summary.empty() ? 1 : 0);
   if (after.size() > length) after.resize(length);

@@ -2,9 +2,10 @@
 #include "poise/tools/commands/explain/truncated_ticks.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <vector>
+
+#include "poise/tools/commands/format.h"
 
 namespace poise {
 namespace {
@@ -66,9 +67,7 @@ std::string SayTruncated(const RunStory& story, const json& summary) {
   text += " not solved to the last level";
   const double budget = FindBudget(summary);
   if (budget > 0) {
-    char number[64];
-    std::snprintf(number, sizeof(number), " with a budget of %g us", budget);
-    text += number;
+    text += Format(" with a budget of %g us", budget);
   }
   text += levels + ".";
   const json fell_at = summary.value("fell_at", json());

@@ -7,9 +7,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "poise/robot/control/controller.h"
+#include "poise/robot/finding.h"
 #include "poise/robot/output_file.h"
 #include "poise/sim/closed_loop.h"
 #include "poise/tools/commands/hqp/hqp_file.h"
+#include "poise/tools/commands/shell_word.h"
 
 namespace poise {
 namespace {
@@ -82,6 +85,19 @@ std::filesystem::path DumpSolve(const Experiment& experiment,
     Write(loop.controller().hierarchy(), to / ("solve_" + time + ".json"));
   }
   return to / ("solve_" + (is_one ? last_text : "*") + ".json");
+}
+
+std::string SolveAgain(const ControlSettings& control, const DumpedTicks& ticks,
+                       const std::filesystem::path& dumped) {
+  std::string command = "bazel run //tools:hqp -- --max-iterations " +
+                        std::to_string(ControllerOptions().max_iterations);
+  const bool has_budget = control.budget_us > 0 && !control.budget_clock;
+  if (has_budget && std::lround(ticks.first / control.dt) == 0) {
+    command += " --budget-us " + PrintNumber(control.budget_us);
+  }
+  // The name of the file may have a '*' for the shell.
+  return command + " " + ShellWord(dumped.parent_path().string()) + "/" +
+         dumped.filename().string();
 }
 
 }  // namespace poise

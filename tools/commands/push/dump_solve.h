@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "poise/sim/experiment.h"
 
@@ -29,5 +30,13 @@ struct DumpedTicks {
 std::filesystem::path DumpSolve(const Experiment& experiment,
                                 const DumpedTicks& ticks,
                                 const std::filesystem::path& folder);
+
+/// Returns the command that solves the dumped ticks again as the controller
+/// did. It has the run's budget only if the ticks begin with the first one of
+/// the run, because a budget is for solves that continue the one before.
+///
+/// @param dumped  what DumpSolve() returned.
+std::string SolveAgain(const ControlSettings& control, const DumpedTicks& ticks,
+                       const std::filesystem::path& dumped);
 
 }  // namespace poise

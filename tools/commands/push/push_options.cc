@@ -184,7 +184,8 @@ Files ParseOptions(int argc, char** argv, Overrides* overrides) {
                  "posture that Poise found");
   AddOptions(&app, overrides);
   app.add_option("--out", files.out,
-                 "folder to write into (push-out/SCENARIO)");
+                 "folder to write into, where the files of an earlier run are "
+                 "replaced (push-out/SCENARIO)");
   app.add_option("--log", files.log,
                  "csv writes log.csv; binary writes log.bin, for long runs")
       ->check(CLI::IsMember({"csv", "binary"}))
