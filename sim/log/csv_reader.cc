@@ -40,6 +40,8 @@ CsvReader::CsvReader(const std::filesystem::path& file)
     throw std::invalid_argument(file.string() + ": cannot be opened");
   }
   if (!std::getline(stream_, line_)) return;
+  cut_short_ = stream_.eof();
+  if (cut_short_) return;
   Split(line_, &cells_);
   columns_.assign(cells_.begin(), cells_.end());
   for (const std::string& column : columns_) {

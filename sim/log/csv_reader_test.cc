@@ -118,5 +118,15 @@ TEST(CsvReader, NamesAMissingFile) {
                std::invalid_argument);
 }
 
+TEST(CsvReader, HasNoColumnsIfTheHeaderIsCut) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "cut.csv";
+  std::ofstream(file) << "time[s],sta";
+  CsvReader log(file);
+  EXPECT_TRUE(log.columns().empty());
+  EXPECT_TRUE(log.cut_short());
+  EXPECT_FALSE(log.Next());
+}
+
 }  // namespace
 }  // namespace poise

@@ -22,10 +22,18 @@ std::filesystem::path FindLog(const std::filesystem::path& run) {
 }
 
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file) {
+  std::unique_ptr<LogReader> log;
   if (BinaryLogReader::IsOne(file)) {
-    return std::make_unique<BinaryLogReader>(file);
+    log = std::make_unique<BinaryLogReader>(file);
+  } else {
+    log = std::make_unique<CsvReader>(file);
   }
-  return std::make_unique<CsvReader>(file);
+  if (log->columns().empty()) {
+    throw std::invalid_argument(
+        file.string() +
+        ": has no complete header, its run ended too early; run push again");
+  }
+  return log;
 }
 
 }  // namespace poise

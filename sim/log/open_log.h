@@ -13,7 +13,7 @@ namespace poise {
 std::filesystem::path FindLog(const std::filesystem::path& run);
 
 /// Opens a log. Its first bytes tell the format. Throws std::invalid_argument
-/// with the file's name.
+/// with the file's name if the file cannot be opened or has no header.
 std::unique_ptr<LogReader> OpenLog(const std::filesystem::path& file);
 
 }  // namespace poise

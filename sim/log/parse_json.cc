@@ -89,7 +89,7 @@ json ParseJson(std::string_view text, const std::string& source) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw Refusal(source, 0, "is empty, must be JSON");
   }
-  // The parser would take it for the end.
+  // The parser would take a NUL for the end of the text.
   const size_t nul = text.find('\0');
   if (nul != std::string_view::npos) {
     RefuseAt(text, nul, source, "is not JSON: has a NUL character");

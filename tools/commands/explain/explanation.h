@@ -13,8 +13,8 @@ namespace poise {
 /// interval begin. `at` is the time of the largest value.
 ///
 ///     rows       [{name, from, to, at, multiplier}]: intervals in which a row
-///                was active, and its largest multiplier. Gaps of one tick, or
-///                below 20 ms, do not end an interval.
+///                was active, and its largest multiplier. Gaps below 20 ms do
+///                not end an interval.
 ///     losses     [{name, from, to, at, amount, unit, because, while}]:
 ///                intervals in which a row of a task had a residual, and the
 ///                largest residual. `because` lists the constraints in the

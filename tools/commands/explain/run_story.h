@@ -38,7 +38,7 @@ struct Span {
 };
 
 /// Collects spans by name, from rows of a log in order of time. A short pause
-/// does not end a span. A pause of one tick is always short.
+/// does not end a span.
 class Spans {
  public:
   /// @param pause  longest short pause, s.

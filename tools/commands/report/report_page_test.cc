@@ -213,8 +213,10 @@ TEST(ReportPage, NamesTheFileThatCannotBeReadOrWritten) {
   EXPECT_EQ(error([&] { ReadRun(run); }),
             (run / "log.csv").string() + ": cannot be opened");
   Write(run / "log.csv", "");
-  EXPECT_EQ(error([&] { ReadRun(run); }),
-            (run / "log.csv").string() + ": has no columns");
+  EXPECT_EQ(
+      error([&] { ReadRun(run); }),
+      (run / "log.csv").string() +
+          ": has no complete header, its run ended too early; run push again");
   Write(run / "log.csv", "time[s]\n0\n");
   Write(run / "robot.json", "{\"name\": \"bo");
   EXPECT_EQ(error([&] { ReadRun(run); }),

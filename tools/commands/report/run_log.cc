@@ -246,9 +246,7 @@ json ReadRunLog(const std::filesystem::path& file,
   const std::string name = file.filename().string();
   const auto time_column = log.Find(kTimeColumn);
   if (!time_column) {
-    throw std::invalid_argument(file.string() + (log.columns().empty()
-                                                     ? ": has no columns"
-                                                     : ": has no column time"));
+    throw std::invalid_argument(file.string() + ": has no column time");
   }
   const long expected = num_rows ? *num_rows : log.CountRows();
   const long motion_rows =

@@ -120,8 +120,12 @@ TEST(RunLog, RejectsInvalidLog) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refusal(""), ": has no columns");
-  EXPECT_EQ(refusal("POISELOG\1"), ": has no columns");  // A binary log, cut.
+  EXPECT_EQ(
+      refusal(""),
+      ": has no complete header, its run ended too early; run push again");
+  EXPECT_EQ(refusal("POISELOG\1"),
+            ": has no complete header, its run ended too early; run push "
+            "again");  // A binary log, cut.
   EXPECT_EQ(refusal("a,b\n1,2\n"), ": has no column time");
   EXPECT_EQ(refusal("\x8f\xa3,\x01\n\xff"), ": has no column time");
   EXPECT_EQ(refusal("time[s],q.knee[rad]\n0,0.1\n1,0.l\n"),
