@@ -7,8 +7,9 @@
 
 namespace poise {
 
-/// A vector that goes from one target to the next with minimum jerk, at rest at
-/// both ends.
+/// A vector that goes from one target to the next with minimum jerk, and rests
+/// at each. A new target may come before the last one is reached; the value, the
+/// rate and the acceleration are continuous then as well.
 class EasedVector {
  public:
   /// The vector at a time, and its derivatives by time.
@@ -17,17 +18,18 @@ class EasedVector {
   };
 
   EasedVector() = default;
-  explicit EasedVector(const Eigen::Vector3d& start)
-      : from_(start), to_(start) {}
+  explicit EasedVector(const Eigen::Vector3d& start) : to_(start) {
+    from_.value = start;
+  }
 
   /// Goes to a target. The change begins at `time` and takes `over`, both in s.
-  /// It starts from the last target, even if that one is not reached.
   void GoTo(const Eigen::Vector3d& target, double time, double over);
 
   Motion At(double time) const;
 
  private:
-  Eigen::Vector3d from_ = Eigen::Vector3d::Zero();
+  Motion from_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                  Eigen::Vector3d::Zero()};
   Eigen::Vector3d to_ = Eigen::Vector3d::Zero();
   double start_ = 0;
   double over_ = 1;

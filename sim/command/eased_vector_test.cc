@@ -44,5 +44,41 @@ TEST(EasedVector, HasTheDerivativesOfItsValue) {
   }
 }
 
+// A change that begins during another one does not jump.
+TEST(EasedVector, IsContinuousIfTheTargetChangesOnTheWay) {
+  const Vector3d start(1, -2, 3), first(-1, 0, 4), second(2, 2, 2);
+  for (const double at : {2.1, 2.3, 2.45}) {
+    EasedVector vector(start);
+    vector.GoTo(first, 2, 0.5);
+    const EasedVector::Motion before = vector.At(at);
+    vector.GoTo(second, at, 0.8);
+    const EasedVector::Motion after = vector.At(at);
+    EXPECT_EQ(after.value, before.value);
+    // Rates are below 20 1/s and accelerations below 200 1/s2; each is
+    // multiplied by the time and divided by it again.
+    EXPECT_LT((after.rate - before.rate).norm(), 20 * 1e-15);
+    EXPECT_LT((after.acceleration - before.acceleration).norm(), 200 * 1e-15);
+    const EasedVector::Motion end = vector.At(at + 0.8);
+    // The terms of the polynomials are below 100.
+    EXPECT_LT((end.value - second).norm(), 100 * 1e-14);
+    EXPECT_LT(end.rate.norm(), 100 * 1e-14);
+    EXPECT_LT(end.acceleration.norm(), 1000 * 1e-14);
+    constexpr double kStep = 1e-5;  // s.
+    for (int i = 1; i < 8; ++i) {
+      const double time = at + 0.1 * i;
+      const EasedVector::Motion low = vector.At(time - kStep);
+      const EasedVector::Motion high = vector.At(time + kStep);
+      const EasedVector::Motion now = vector.At(time);
+      // The error is kStep^2 / 6 times a third derivative, which is below
+      // 1e6 for the value and the rate, and rounding, 20 * 2e-16 / kStep.
+      EXPECT_LT(((high.value - low.value) / (2 * kStep) - now.rate).norm(),
+                1e-4);
+      EXPECT_LT(
+          ((high.rate - low.rate) / (2 * kStep) - now.acceleration).norm(),
+          1e-4);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace poise
