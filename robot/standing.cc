@@ -11,6 +11,7 @@
 #include "poise/robot/feet/feet.h"
 #include "poise/robot/finding.h"
 #include "poise/robot/limits.h"
+#include "poise/robot/nominal_tick.h"
 
 namespace poise {
 namespace {
@@ -33,13 +34,6 @@ bool IsInside(const Vector2d& p, const std::vector<Vector2d>& polygon) {
     if (!(side.x() * to_p.y() - side.y() * to_p.x() >= 0)) return false;
   }
   return polygon.size() > 2;
-}
-
-Tick NominalTick(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
-  return tick;
 }
 
 Pose SoleIn(const Tick& tick, const Foot& foot) {

@@ -8,6 +8,7 @@
 
 #include "poise/robot/control/balance_monitor.h"
 #include "poise/robot/gait/dcm.h"
+#include "poise/robot/nominal_tick.h"
 
 namespace poise {
 
@@ -31,9 +32,7 @@ std::vector<int> FootFrames(const Robot& robot) {
 }  // namespace
 
 double StandingHeight(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   double ground = std::numeric_limits<double>::infinity();
   for (const Foot& foot : robot.feet) {
     ground = std::min(ground, (tick.X_WB[foot.body] * foot.X_BC).p.z());

@@ -7,6 +7,7 @@
 #include "poise/dynamics/tick.h"
 #include "poise/robot/gait/gait_settings.h"
 #include "poise/robot/gait/step_region.h"
+#include "poise/robot/nominal_tick.h"
 #include "poise/sim/yardstick.h"
 
 namespace poise {
@@ -47,13 +48,6 @@ std::vector<Eigen::Vector2d> Corners(const std::vector<HalfPlane>& planes) {
     }
   }
   return corners;
-}
-
-Tick NominalTick(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
-  return tick;
 }
 
 Pose SolePose(const Robot& robot, const Tick& tick, int foot) {

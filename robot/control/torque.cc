@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poise/robot/nominal_tick.h"
+
 namespace poise {
 namespace {
 
@@ -16,16 +18,15 @@ constexpr double kFilterTime = 2;
 
 // Returns sqrt(g / h) of the robot's pendulum, 1/s.
 double PendulumRate(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   double height = 0;
   for (const Foot& foot : robot.feet) {
     const Eigen::Vector3d p_WC = tick.X_WB[foot.body] * foot.X_BC.p;
     height = std::max(height, tick.p_WG.z() - p_WC.z());
   }
   // Without a height, in the bolted-down robots of tests, a meter is assumed.
-  return std::sqrt(tree.gravity_W().norm() / (height > 0 ? height : 1));
+  return std::sqrt(robot.model.tree.gravity_W().norm() /
+                   (height > 0 ? height : 1));
 }
 
 }  // namespace

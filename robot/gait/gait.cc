@@ -12,6 +12,7 @@
 #include "poise/robot/finding.h"
 #include "poise/robot/gait/dcm.h"
 #include "poise/robot/gait/turn_strength.h"
+#include "poise/robot/nominal_tick.h"
 
 namespace poise {
 namespace {
@@ -56,9 +57,7 @@ Gait::Gait(const Robot& robot, const GaitSettings& settings)
       mass_(robot.model.tree.total_mass()),
       gravity_(robot.model.tree.gravity_W().norm()),
       push_(mass_, settings.push) {
-  const Tree& tree = robot_.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot_.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot_);
   nominal_height_ = tick.p_WG.z();
   settings_ = Scaled(settings, nominal_height_);
   settings_.trigger = FitToStrength(settings.trigger, settings.weak_trigger,

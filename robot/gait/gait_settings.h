@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the Poise authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include "poise/robot/control/tasks/froude.h"
 #include "poise/robot/gait/push_estimate.h"
 #include "poise/robot/gait/step_region.h"
 #include "poise/robot/gait/step_trigger.h"
@@ -13,7 +14,7 @@ namespace poise {
 struct GaitSettings {
   /// Height of the center of mass for which the defaults were tuned, m: that of
   /// robot/models/humanoid.urdf in its nominal posture.
-  static constexpr double kTunedHeight = 0.79241773219939693;
+  static constexpr double kTunedHeight = kTunedComHeight;
 
   double dt = 1e-3;  ///< Control period, s.
   /// Share of the angular momentum in the DCM, 0 to 1: see ComputeDcm().

@@ -8,8 +8,8 @@
 namespace poise {
 
 /// A vector that goes from one target to the next with minimum jerk, and rests
-/// at each. A new target may come before the last one is reached; the value, the
-/// rate and the acceleration are continuous then as well.
+/// at each. A new target may come before the last one is reached; the value,
+/// the rate and the acceleration are continuous then as well.
 class EasedVector {
  public:
   /// The vector at a time, and its derivatives by time.

@@ -13,6 +13,7 @@
 #include "poise/robot/control/posture/ankle_reach.h"
 #include "poise/robot/control/posture/sole_rows.h"
 #include "poise/robot/feet/knee.h"
+#include "poise/robot/nominal_tick.h"
 
 namespace poise {
 namespace {
@@ -55,12 +56,11 @@ Eigen::Matrix3d Orientation(const VectorXd& q) {
 // the center of mass, m. In a leg without a roll joint at the ankle, the joint
 // is that of the hip, which reaches far.
 double ReachInside(const Robot& robot, int foot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   const Foot& sole = robot.feet[foot];
   const Pose X_WC = tick.X_WB[sole.body] * sole.X_BC;
-  const auto ankle = FindAnkle(tree, sole.body, tick.X_WB, X_WC.R.col(0));
+  const auto ankle =
+      FindAnkle(robot.model.tree, sole.body, tick.X_WB, X_WC.R.col(0));
   if (!ankle) return kInfinity;
   const double y = (X_WC.Inverse() * tick.X_WB[*ankle + 1].p).y();
   const double inward = foot == 0 ? -1 : 1;
@@ -127,9 +127,7 @@ Eigen::Vector3d ShiftedCenterOfMass(const Robot& robot, int foot,
 
 OneFootPosture FindOneFootPosture(const Robot& robot, int foot,
                                   const Eigen::Vector2d& G) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   const Foot& sole = robot.feet[foot];
   const double ground = (tick.X_WB[sole.body] * sole.X_BC.p).z();
   SingleSupport support{foot, kLift * (tick.p_WG.z() - ground), G};

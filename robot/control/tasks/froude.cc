@@ -9,6 +9,7 @@
 
 #include "poise/dynamics/tick.h"
 #include "poise/dynamics/tree.h"
+#include "poise/robot/nominal_tick.h"
 
 namespace poise {
 namespace {
@@ -53,8 +54,7 @@ std::optional<double> NominalComHeight(const Robot& robot) {
   if (robot.feet.empty() || robot.q_nominal.size() != tree.nq()) {
     return std::nullopt;
   }
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, Eigen::VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   double ground = 0;
   for (const Foot& foot : robot.feet) {
     ground += (tick.X_WB[foot.body] * foot.X_BC).p.z();

@@ -23,6 +23,7 @@
 #include "poise/robot/feet/sole_source.h"
 #include "poise/robot/feet/surrounding_rectangle.h"
 #include "poise/robot/limits.h"
+#include "poise/robot/nominal_tick.h"
 #include "poise/robot/profile/massless.h"
 #include "poise/robot/profile/save_profile.h"
 #include "poise/robot/text_file.h"
@@ -71,9 +72,7 @@ int Urgency(const Finding& finding) {
 
 // Returns the height of the center of mass in the standing posture, m.
 double HeightOfMass(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   return tick.p_WG.z();
 }
 

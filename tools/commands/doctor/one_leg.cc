@@ -9,6 +9,7 @@
 #include "poise/dynamics/tick.h"
 #include "poise/robot/control/posture/find_posture.h"
 #include "poise/robot/control/posture/one_foot.h"
+#include "poise/robot/nominal_tick.h"
 
 namespace poise {
 namespace {
@@ -115,9 +116,7 @@ std::string Reason(const Robot& robot, int foot, const Tick& tick) {
 }  // namespace
 
 std::vector<Finding> FindOneLegDefects(const Robot& robot) {
-  const Tree& tree = robot.model.tree;
-  Tick tick(tree, {});
-  ComputeTick(tree, robot.q_nominal, VectorXd::Zero(tree.nv()), &tick);
+  const Tick tick = NominalTick(robot);
   std::vector<Finding> findings;
   for (const int foot : {0, 1}) {
     const std::string reason = Reason(robot, foot, tick);

@@ -156,6 +156,7 @@ PUBLIC_HEADERS = [
     "robot/mesh/read_visuals.h",
     "robot/mesh/simplify_mesh.h",
     "robot/mesh/triangle_mesh.h",
+    "robot/nominal_tick.h",
     "robot/numbers.h",
     "robot/output_file.h",
     "robot/profile/find_profile.h",
